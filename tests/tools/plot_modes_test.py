@@ -94,10 +94,10 @@ class PlotModes(ToolTestCase):
         svg = self.draw_svg("--over-time", "adaptive=adaptive.h5", "rigid chassis=rigid.h5")
         texts = read_texts(svg)
         for text in (
-            "chassis: 1.5 of 3 modes take part on the run's average, 2 at most; changes at 2 instants",
+            "chassis: 1.5 of 3 vectors take part on the run's average, 2 at most; changes at 2 instants",
             "of the largest deflection so far: 3 % at most, chassis mode 3 at 0.5 s",
             "of the largest acceleration so far: 0.8 % at most, chassis mode 2 at 0.2 s",
-            "recall, 1 %", "left out, %", "mode", "acceleration of chassis, m/s²", "time, s", "adaptive",
+            "recall, 1 %", "left out, %", "vector", "acceleration of chassis, m/s²", "time, s", "adaptive",
             "rigid chassis", "6.11", "38.3", "residual", "frequency, Hz",
         ):  # fmt: skip
             self.assertIn(text, texts)
@@ -116,7 +116,7 @@ class PlotModes(ToolTestCase):
     def test_over_time_a_fixed_set_that_was_not_watched(self):
         write_adaptive_run(self.folder / "fixed.h5", is_adaptive=False)
         texts = read_texts(self.draw_svg("fixed.h5", "--over-time"))
-        self.assertIn("chassis: all 3 modes of the run take part throughout", texts)
+        self.assertIn("chassis: all 3 vectors of the run take part throughout", texts)
         self.assertNotIn("left out, %", texts)
 
     def test_over_time_a_run_without_modes_is_refused(self):

@@ -90,7 +90,8 @@ class ReportPage(PageTestCase):
             loads, modes = (results.file.numbers(f"recovery/chassis/moment{one}")[0] for one in ("_from_loads", ""))
             stations, time = results.file.numbers("recovery/chassis/station")[0], results.time
         cases = ((loads, "bending moment, largest of all outputs"),
-                 (loads - modes, "bending moment, largest difference of all outputs"))  # fmt: skip
+                 (loads - modes,
+                  "bending moment, largest difference from that of the modes, of all outputs"))  # fmt: skip
         page = self.open("thin.html")
         self.choose(page, "load-body", page.evaluate("String(loads.all.findIndex((one) => one.index === 1))"))
         for values, name in cases:
@@ -228,6 +229,16 @@ class ReportPage(PageTestCase):
         self.assertGreater(np.count_nonzero(np.any(np.abs(page.picture(selector=second) - before) > 0.2, axis=2)), 1000)
         page.evaluate("document.querySelector('[data-zoom=all]').click()")
         self.assertEqual(page.evaluate("linked[1].graph.xAxisRange()"), [0, 5])
+
+    def test_keys_are_for_the_animation_after_a_click_into_it(self):
+        page = self.open()
+        page.click("#scene")
+        page.wait_until("clock.time > 0")
+        page.press(" ", "Space")
+        self.assertEqual(page.evaluate("player.playing"), False)
+        before = page.evaluate("clock.time")
+        page.press("ArrowRight", "ArrowRight")
+        self.assertGreater(page.evaluate("clock.time"), before)
 
     def test_keys_step_and_play_and_pause(self):
         page = self.open()

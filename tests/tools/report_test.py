@@ -85,7 +85,7 @@ class Report(ToolTestCase):
         channels = {one["name"]: one for one in data["runs"][1]["channels"]}
         force = channels["front_tyre, force"]
         self.assertEqual((force["unit"], float(decode(force["v"]).max())), ("N", STATIC_LOAD))
-        deflection = decode(channels["chassis.front_end, in the body frame"]["v"])
+        deflection = decode(channels["chassis.front_end, deflection in the body frame"]["v"])
         self.assertAlmostEqual(float(deflection.max()), 0.2 * HEAVE, places=7)
         self.assertEqual(channels["chosen"]["group"], "Asked for")
         self.assertEqual(decode(channels["chosen"]["t"]).size, NUM_SAMPLES)

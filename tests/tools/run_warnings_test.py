@@ -89,8 +89,8 @@ class RunWarnings(ToolTestCase):
             with self.subTest(tool):
                 process = self.run_tool(tool, *arguments)
                 self.assertEqual(process.returncode, 0, process.stderr)
-                self.assertIn("warning: chassis 3 modes: the energy balance does not close", process.stdout)
-                self.assertIn("note: chassis 3 modes: forces stored every 50 ms", process.stdout)
+                self.assertIn("warning: chassis 3 vectors: the energy balance does not close", process.stdout)
+                self.assertIn("note: chassis 3 vectors: forces stored every 50 ms", process.stdout)
 
     def test_the_modes_about_the_equilibrium_do_not_hold_for_a_wheel_in_the_air(self):
         self.write_neglected(self.folder / "a.h5")

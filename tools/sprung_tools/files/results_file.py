@@ -166,6 +166,8 @@ class ResultsFile:
             return np.zeros(0, dtype=int)
         name = f"bodies/{body}/modal/mode_number"
         numbers, _ = read_numbers(self.file, name)
+        if not self.superelement(body):
+            raise InputError(f"{self.path}: error: 'model/bodies/{body}' does not name the superelement of its modes")
         shapes = f"model/superelements/{self.superelement(body)}/shapes"
         shape = self.file.shape(shapes)
         if not shape:

@@ -40,6 +40,12 @@ def read_vectors(results: ResultsFile, body: str) -> list[Vector]:
     ]
 
 
+def count_vectors(vectors: Sequence[Vector]) -> str:
+    """`6 modes`; `17 vectors` where some are no modes of the body."""
+    is_modes = all(one.kind in ("", *OF_THE_BODY) for one in vectors)
+    return f"{len(vectors)} {'modes' if is_modes else 'vectors'}"
+
+
 def describe_vectors(vectors: Sequence[Vector]) -> str:
     """`free modes 1–6, residual vectors 7–17`."""
     parts = []

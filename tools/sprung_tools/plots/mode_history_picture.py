@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.model.reduced_vectors import Vector
+from sprung_tools.model.reduced_vectors import Vector, count_vectors
 from sprung_tools.model.resolved_model import has_resolved_model, read_settings
 from sprung_tools.plots.history_panel import draw_panel
 from sprung_tools.plots.picture_file import COLOURS, make_figure
@@ -31,13 +31,13 @@ NEGLECT = {"deflection": COLOURS[0], "acceleration": COLOURS[2]}  # the first co
 
 def describe_activity(results: ResultsFile, history: ModeHistory) -> str:
     """The title above a body's modes. It is about the whole run, even if only a part of the run is drawn."""
-    number = history.is_active.shape[1]
+    number = count_vectors(history.vectors)
     if np.all(history.is_active):
-        return f"{history.body}: all {number} modes of the run take part throughout"
+        return f"{history.body}: all {number} of the run take part throughout"
     counts = np.sum(history.is_active, axis=1)
     changes = find_change_times(results).size
     return (
-        f"{history.body}: {np.mean(counts):.1f} of {number} modes take part on the run's average, "
+        f"{history.body}: {np.mean(counts):.1f} of {number} take part on the run's average, "
         f"{np.max(counts)} at most; changes at {changes} instants"
     )
 
@@ -61,7 +61,7 @@ def draw_modes(axes: Axes, results: ResultsFile, history: ModeHistory) -> None:
     step = max(1, -(-rows.size // LABELLED_FREQUENCIES))
     places = rows[::step]
     axes.set_yticks(places, [f"{history.vectors[row - 1].number}" for row in places])
-    axes.set_ylabel("mode")
+    axes.set_ylabel(count_vectors(history.vectors).split()[1].removesuffix("s"))
     axes.set_title(describe_activity(results, history), loc="left", fontsize=10.5)
     axes.grid(axis="x", color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)

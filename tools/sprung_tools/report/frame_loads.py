@@ -17,6 +17,7 @@ from sprung_tools.runs.stations import place_stations
 from sprung_tools.runs.stored_histories import find_row_step
 
 QUANTITIES = (("moment", "bending moment"), ("shear", "shear force"))
+LARGEST_DIFFERENCE = "largest difference from that of the modes"
 MOST_STATIONS = 160  # drawn along a body: those of every k-th element, and of the elements with an extreme
 
 
@@ -68,7 +69,8 @@ def pack_own(
     the order of the stations, and where they are [m]."""
     order, along = places
     names = [(f"{load}{ENDINGS[sources[0]]}", "largest of all outputs")]
-    names += [(f"{load}_difference", "largest difference of all outputs")] if len(sources) > 1 else []
+    if len(sources) > 1:
+        names.append((f"{load}_difference", f"{LARGEST_DIFFERENCE}, of all outputs"))
     found = [(what, read_own(results, body, name)) for name, what in names]
     return [
         {"what": what, "value": own.value, "place": float(along[np.flatnonzero(order == own.station)[0]]),
@@ -119,7 +121,7 @@ def pack_difference(from_loads: Floats, from_modes: Floats, along: Floats, time:
     """Where and when the values from the loads and from the modes [n×stations] differ most."""
     difference = from_loads - from_modes
     row, column = np.unravel_index(int(np.argmax(np.abs(difference))), difference.shape)
-    return {"what": "largest difference from that of the modes", "value": float(difference[row, column]),
+    return {"what": LARGEST_DIFFERENCE, "value": float(difference[row, column]),
             "place": float(along[column]), "time": float(time[row])}  # fmt: skip
 
 

@@ -29,7 +29,7 @@ from sprung_tools.signals.spectra import calc_whole_spectrum
 MOST_MODES = 8  # modes of a body whose amplitudes are drawn: the largest ones, as many as the page has colours
 SEGMENT = 4.0  # s, the longest segment of the averaged spectra: lines 0.25 Hz apart; a shorter run is one segment long
 HIGHEST_FREQUENCY = 200.0  # Hz drawn
-IN_BODY_FRAME = "in the body frame"
+IN_BODY_FRAME = "deflection in the body frame"
 LARGEST_MOMENT, LARGEST_AXIAL = "largest bending moment along it", "largest axial force along it"
 
 
@@ -81,7 +81,7 @@ def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequ
         add("Whole vehicle", f"{body}, angle", f"bodies/{body}/position.angle")
         add("Whole vehicle", f"{body}, horizontal velocity", f"bodies/{body}/velocity.x")
     for name in results.names("energy"):
-        add("Energy", name, f"energy/{name}")
+        add("Energy", f"{name} energy", f"energy/{name}")
     return channels
 
 

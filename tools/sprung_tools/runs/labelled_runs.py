@@ -9,6 +9,7 @@ import numpy as np
 from sprung_tools.files.array_types import Flags
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import ResultsFile, open_results
+from sprung_tools.model.reduced_vectors import count_vectors, read_vectors
 
 
 class Run(NamedTuple):
@@ -66,8 +67,8 @@ def runs_with(runs: Sequence[Run], shown: Shown) -> list[Run]:
 
 def describe(results: ResultsFile) -> str:
     """Names a run after its flexible bodies: `chassis 2 modes`, or `rigid`."""
-    flexible = [(body, results.num_modes(body)) for body in results.names("bodies")]
-    return ", ".join(f"{body} {count} modes" for body, count in flexible if count > 0) or "rigid"
+    flexible = [body for body in results.names("bodies") if results.num_modes(body)]
+    return ", ".join(f"{body} {count_vectors(read_vectors(results, body))}" for body in flexible) or "rigid"
 
 
 def samples_between(results: ResultsFile, start: float | None, end: float | None) -> Flags:

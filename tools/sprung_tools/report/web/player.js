@@ -141,7 +141,10 @@ function connectControls() {
   byId("magnification").addEventListener("input", (event) => { setMagnification(Number(event.target.value)); drawScene(); });
   byId("labels").addEventListener("change", (event) => { player.labels = event.target.checked; drawScene(); });
   byId("play").addEventListener("click", () => setPlaying(!player.playing));
-  byId("scene").addEventListener("click", () => setPlaying(!player.playing));
+  byId("scene").addEventListener("click", () => {
+    setPlaying(!player.playing);
+    scrubber.focus({preventScroll: true});  // which the keys are for
+  });
   byId("player").addEventListener("keydown", (event) => {
     const typing = /^(SELECT|BUTTON)$/.test(event.target.tagName) || event.target.type === "checkbox";
     if (event.key === " " && !typing) {
