@@ -191,6 +191,17 @@ class StudyPage(unittest.TestCase):
             self.assertGreater(fit[0] * (1 if column == 1 else -1), 0.0)  # to the right, and up
         self.assertIn("6 runs", page.evaluate("document.getElementById('scatter-plot').ariaLabel"))
 
+    def test_the_heat_map_begins_with_parameters_that_have_several_values(self):
+        text = CROWDED.replace("METHOD", "grid") + "".join(
+            f'[[parameters]]\nkey = "{key}"\nvalues = {values}\n'
+            for key, values in (("speed", [5.0]), ("road.height", [0.01, 0.02]), ("road.start", [0.1, 0.2]))
+        )
+        (self.folder / "constant.toml").write_text(text, encoding="utf-8")
+        run_program([TOOLS / "study", "constant.toml", "-o", "constant"], cwd=self.folder, check=True)
+        page = self.open(folder="constant")
+        chosen = page.evaluate("['heat-x', 'heat-y'].map((name) => columnOf(byId(name)).name)")
+        self.assertEqual(chosen, ["road.height", "road.start"])
+
     def test_the_heat_map_shows_means_over_fields(self):
         page = self.open()
         self.choose(page, "heat-measure", "suspensions/suspension/compression")

@@ -58,10 +58,11 @@ function writeHeatMap() {
 function makeHeatMap() {
   byId("heat-map").hidden = parameterColumns.length < 2 || !measureColumns.length;
   if (byId("heat-map").hidden) return;
-  const wanted = {"heat-x": [parameterColumns, 0], "heat-y": [parameterColumns, 1], "heat-measure": [measureColumns, 0]};
-  for (const [name, [some, number]] of Object.entries(wanted)) {
+  const varied = [...parameterColumns].sort((a, b) => (b.high > b.low) - (a.high > a.low));  // those with one value come last
+  const wanted = {"heat-x": [parameterColumns, varied[0]], "heat-y": [parameterColumns, varied[1]], "heat-measure": [measureColumns, measureColumns[0]]};
+  for (const [name, [some, first]] of Object.entries(wanted)) {
     fillSelect(byId(name), optionsOf(some));
-    byId(name).value = some[number].index;
+    byId(name).value = first.index;
     byId(name).addEventListener("change", drawHeatMap);
   }
   byId("heat-saves").replaceWith(makeSaveButtons("heat-map", writeHeatMap, () => copyPicture(byId("heat-plot"))));
