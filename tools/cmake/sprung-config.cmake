@@ -2,5 +2,4 @@
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4 NO_MODULE)
 find_dependency(fmt)
-find_dependency(OpenSSL COMPONENTS Crypto)
 include("${CMAKE_CURRENT_LIST_DIR}/sprung-targets.cmake")

@@ -61,6 +61,29 @@ function(sprung_room)
   endforeach()
 endfunction()
 
+# sprung_static_or_shared(RESULT SHARED [NAME…]): for programs with the property STATIC_LIBRARIES the static library beside
+# a shared one, with those NAMEs that it needs, where all of them are there; else the shared one. A program is loaded in a
+# third of the time without shared libraries. Not so the module for Python, which shares HDF5 with h5py, nor programs with
+# other libraries that use the same ones.
+function(sprung_static_or_shared result shared)
+  get_filename_component(folder "${shared}" DIRECTORY)
+  get_filename_component(first "${shared}" NAME_WE)
+  foreach(name IN ITEMS ${first} LISTS ARGN)
+    set(path "${folder}/${name}.a")
+    if(NOT EXISTS "${path}")
+      execute_process(COMMAND "${CMAKE_CXX_COMPILER}" -print-file-name=${name}.a
+        OUTPUT_VARIABLE path OUTPUT_STRIP_TRAILING_WHITESPACE)
+    endif()
+    list(APPEND static "${path}")
+    if(NOT IS_ABSOLUTE "${path}")
+      set(${result} "${shared}" PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  set(is_static "$<BOOL:$<TARGET_PROPERTY:STATIC_LIBRARIES>>")
+  set(${result} "$<${is_static}:${static}>" "$<$<NOT:${is_static}>:${shared}>" PARENT_SCOPE)
+endfunction()
+
 # The name of a room's target.
 function(sprung_room_target result folder)
   string(REPLACE "/" "_" name "sprung_${folder}")

@@ -1,26 +1,18 @@
 #include "tools/support/files/content_hash.h"
 
-#include <openssl/evp.h>
+#include <nettle/sha2.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace sprung::support {
 
 namespace {
 
-using Digest = std::array<unsigned char, EVP_MAX_MD_SIZE>;
-
-EVP_MD_CTX* evp(void* context) {
-  return static_cast<EVP_MD_CTX*>(context);
-}
-
-void check(int status) {
-  if (status != 1) throw std::runtime_error("ContentHash: the SHA-256 of OpenSSL failed");
-}
+using Digest = std::array<std::uint8_t, SHA256_DIGEST_SIZE>;
 
 // The eight bytes of a number, least significant first on every machine.
 std::array<char, 8> little_endian(std::uint64_t value) {
@@ -32,26 +24,31 @@ std::array<char, 8> little_endian(std::uint64_t value) {
   return bytes;
 }
 
-std::string to_hex(const Digest& digest, unsigned int size) {
+void update(sha256_ctx& context, std::string_view bytes) {
+  sha256_update(&context, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+}
+
+std::string to_hex(sha256_ctx& context) {
+  Digest digest{};
+  sha256_digest(&context, digest.size(), digest.data());
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text;
-  text.reserve(2 * std::size_t{size});
-  for (unsigned int i = 0; i < size; ++i) {
-    text += kDigits[digest[i] >> 4U];
-    text += kDigits[digest[i] & 0xFU];
+  text.reserve(2 * digest.size());
+  for (const std::uint8_t byte : digest) {
+    text += kDigits[byte >> 4U];
+    text += kDigits[byte & 0xFU];
   }
   return text;
 }
 
 }  // namespace
 
-void ContentHash::Deleter::operator()(void* context) const {
-  EVP_MD_CTX_free(static_cast<EVP_MD_CTX*>(context));
-}
+struct ContentHash::Context {
+  sha256_ctx sha{};
+};
 
-ContentHash::ContentHash() : context_(EVP_MD_CTX_new()) {
-  if (!context_) throw std::bad_alloc();
-  check(EVP_DigestInit_ex(evp(context_.get()), EVP_sha256(), nullptr));
+ContentHash::ContentHash() : context_(std::make_unique<Context>()) {
+  sha256_init(&context_->sha);
 }
 
 ContentHash::~ContentHash() = default;
@@ -63,7 +60,7 @@ void ContentHash::add(std::string_view label, std::string_view text) {
 
 void ContentHash::add(std::string_view label, std::span<const double> values) {
   add_header('d', label, values.size());
-  constexpr std::size_t kAtOnce = 512;  // one call of OpenSSL for each value would take longer than the hash
+  constexpr std::size_t kAtOnce = 512;  // one call of Nettle for each value would take longer than the hash
   std::array<std::array<char, 8>, kAtOnce> block;
   for (; !values.empty(); values = values.subspan(std::min(kAtOnce, values.size()))) {
     const std::span<const double> taken = values.first(std::min(kAtOnce, values.size()));
@@ -93,23 +90,20 @@ void ContentHash::add_integer(std::uint64_t value) {
 
 void ContentHash::add_bytes(std::string_view bytes) {
   if (!context_) throw std::invalid_argument("ContentHash::add: hex() has been called");
-  check(EVP_DigestUpdate(evp(context_.get()), bytes.data(), bytes.size()));
+  update(context_->sha, bytes);
 }
 
 std::string ContentHash::hex() {
   if (!context_) throw std::invalid_argument("ContentHash::hex: called twice");
-  Digest digest{};
-  unsigned int size = 0;
-  check(EVP_DigestFinal_ex(evp(context_.get()), digest.data(), &size));
-  context_.reset();
-  return to_hex(digest, size);
+  const std::unique_ptr<Context> context = std::move(context_);
+  return to_hex(context->sha);
 }
 
 std::string sha256(std::string_view text) {
-  Digest digest{};
-  unsigned int size = 0;
-  check(EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr));
-  return to_hex(digest, size);
+  sha256_ctx context{};
+  sha256_init(&context);
+  update(context, text);
+  return to_hex(context);
 }
 
 }  // namespace sprung::support

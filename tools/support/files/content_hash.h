@@ -24,10 +24,8 @@ class ContentHash {
   void add_header(char type, std::string_view label, std::size_t count);
   void add_bytes(std::string_view bytes);
   void add_integer(std::uint64_t value);
-  struct Deleter {
-    void operator()(void* context) const;
-  };
-  std::unique_ptr<void, Deleter> context_;
+  struct Context;
+  std::unique_ptr<Context> context_;
 };
 
 /// SHA-256 of a text, 64 hexadecimal digits.
