@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,22 @@ TEST_CASE("Memory that a large array leaves is the next one's without new pages"
                                                  },
                                                  {});
   CHECK(std::stol(pages) < 100);  // 16384 of 4 kB make an array
+}
+#endif
+
+// What comes before a huge page comes in small ones, 512 in place of one.
+#ifndef __SANITIZE_ADDRESS__
+TEST_CASE("The first large array begins where a huge page does") {
+  const std::string offset =
+      run_in_limited_child("heap",
+                           [] {
+                             prepare_large_heap(4 * kArray);
+                             const std::vector<char> array(kArray, '\1');
+                             const auto address = reinterpret_cast<std::uintptr_t>(array.data());
+                             return std::to_string(address % (std::uintptr_t{2} << 20U));
+                           },
+                           {});
+  CHECK(std::stol(offset) < 4096);
 }
 #endif
 

@@ -15,7 +15,7 @@ namespace sprung::support {
 
 namespace {
 
-constexpr std::uintptr_t kPage = 4096;
+constexpr std::uintptr_t kHugePage = std::uintptr_t{2} << 20U;  // bytes
 
 }  // namespace
 
@@ -23,12 +23,15 @@ void prepare_large_heap([[maybe_unused]] std::size_t bytes) {
 #ifdef SPRUNG_GLIBC_HEAP
   mallopt(M_MMAP_MAX, 0);         // large arrays come from the heap, too
   mallopt(M_TRIM_THRESHOLD, -1);  // whose end is never given back
-  void* block = std::malloc(bytes);
+  void* block = std::malloc(bytes + kHugePage);
   if (block == nullptr) return;
-  const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(block) + kPage - 1) / kPage * kPage;
-  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(block) + bytes) / kPage * kPage;
-  if (end > begin) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-  std::free(block);
+  const auto address = reinterpret_cast<std::uintptr_t>(block);
+  const std::uintptr_t begin = (address / kHugePage + 1) * kHugePage,
+                       end = (address + bytes) / kHugePage * kHugePage + kHugePage;
+  ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  // What is before the first huge page would come in small ones. It stays unused, as address space alone.
+  [[maybe_unused]] static void* unused = nullptr;
+  unused = std::realloc(block, begin - address);
 #endif
 }
 
