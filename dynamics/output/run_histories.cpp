@@ -130,27 +130,25 @@ void RunHistories::add_bodies() {
 }
 
 void RunHistories::add_neglected(const Model& full) {
+  std::size_t first = 0;  // of the body's modes among all
   for (const Body& body : full.bodies) {
     if (body.num_modes() == 0) continue;
-    const int first = body.first_coordinate + 3, last = first + body.num_modes() - 1;
     const std::vector<int> numbers = body.mode_numbers;
     begin(StoredGroup::kBodies, body.name);
     add("/bodies/" + body.name + "/modal/neglected", 3, "1",
-        [first, last, numbers](const Snapshot& now, std::span<double> row) {
+        [first, numbers](const Snapshot& now, std::span<double> row) {
           std::fill(row.begin(), row.end(), 0.0);
-          const ModeIndicator& indicator = now.modes->indicator();
           double worst = 0.0;
-          for (std::size_t j = 0; j < indicator.num_modes(); ++j) {
-            const int coordinate = indicator.modal_coordinates()[j];
-            if (coordinate < first || coordinate > last) continue;
-            const ModeShare share = indicator.calc_neglected(j);
+          for (std::size_t k = 0; k < numbers.size(); ++k) {
+            const ModeShare share = now.modes->indicator().calc_neglected(first + k);
             if (share.worst() <= worst) continue;
             worst = share.worst();
             row[0] = share.deflection;
             row[1] = share.acceleration;
-            row[2] = numbers[static_cast<std::size_t>(coordinate - first)];
+            row[2] = numbers[k];
           }
         });
+    first += numbers.size();
   }
 }
 
