@@ -61,6 +61,11 @@ Eigen::VectorXd calc_relative_force(const PartitionedEquations& equations, const
   return equations.calc_reduced(forces - equations.apply_mass(others));
 }
 
+// By calc_relative_force.
+Needed needed_by(const SteadyMotion& motion) {
+  return motion.is_rest() ? Needed::kForces : Needed::kAccelerations;
+}
+
 }  // namespace
 
 Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time,
@@ -104,7 +109,7 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
         values << calc_relative_force(at, without_modal, motion), without_modal;
         return values;
       },
-      motion);
+      motion, needed_by(motion));
   const Eigen::MatrixXd& D = system.directions;
   system.stiffness = D.transpose() * apply_modal_stiffness(model, D) - derivative.topRows(f);
   // Internal states are rates: neither they nor forces depend on the coordinates that belong to them.
@@ -153,7 +158,7 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
       [&](const PartitionedEquations& at, auto) {
         return calc_relative_force(at, at.terms().forces(), motion);
       },
-      motion);
+      motion, needed_by(motion));
   calc_static_force(equations, time, q_i, nullptr, motion);
   add_stiffness(equations, time, q_i, motion, system);
   calc_static_force(equations, time, q_i, nullptr, motion);

@@ -26,24 +26,29 @@ double scale_of(const PartitionedEquations& equations, Eigen::Index k) {
   return model_of(equations).coordinate_scale(coordinate_of(equations, k));
 }
 
-// Evaluates velocities relative to a steady motion, and accelerations, at the present positions.
+// Evaluates velocities relative to a steady motion, and what depends on them, at the present positions.
 // @return the branches in use
 std::vector<int> set_velocities(PartitionedEquations& equations, const Eigen::VectorXd& rate_independent,
-                                const SteadyMotion& motion) {
+                                const SteadyMotion& motion, Needed needed) {
   const Eigen::VectorXd w = motion.calc_velocity(model_of(equations), equations.q());
   Eigen::VectorXd v_independent = rate_independent;
   for (Eigen::Index k = 0; k < v_independent.size(); ++k) v_independent[k] += w[coordinate_of(equations, k)];
   equations.update_velocities(support::as_span(v_independent));
   std::vector<int> branches(static_cast<std::size_t>(model_of(equations).num_branches));
   equations.terms().choose_branches(branches);
-  equations.update_accelerations(branches);
+  if (needed == Needed::kForces) {
+    equations.update_forces(branches);
+  } else {
+    equations.update_accelerations(branches);
+  }
   return branches;
 }
 
 // Evaluates rest at positions that are shifted along the k-th independent coordinate.
 // @return the branches in use
 std::vector<int> set_shifted_rest(PartitionedEquations& equations, double time, Eigen::VectorXd q_independent,
-                                  Eigen::Index k, double distance, const SteadyMotion& motion) {
+                                  Eigen::Index k, double distance, const SteadyMotion& motion,
+                                  Needed needed) {
   q_independent[k] += distance;
   if (equations.update_positions(time, support::as_span(q_independent)) !=
       PartitionedEquations::Outcome::kGood) {
@@ -53,7 +58,7 @@ std::vector<int> set_shifted_rest(PartitionedEquations& equations, double time, 
   }
   // Joints open by 1e-12 of the length scale would shift a stiffness by 1e-8 of the largest one.
   equations.refine_positions();
-  return set_velocities(equations, Eigen::VectorXd::Zero(q_independent.size()), motion);
+  return set_velocities(equations, Eigen::VectorXd::Zero(q_independent.size()), motion, needed);
 }
 
 // Adds the elements whose branches differ.
@@ -73,10 +78,10 @@ void add_changed(const Model& model, const std::vector<int>& one, const std::vec
 
 Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, double time,
                                           const Eigen::VectorXd& q_independent, const StateFunction& function,
-                                          const SteadyMotion& motion) {
+                                          const SteadyMotion& motion, Needed needed) {
   Eigen::MatrixXd derivative;
   const auto value_at = [&](Eigen::Index k, double distance) {
-    return function(equations, set_shifted_rest(equations, time, q_independent, k, distance, motion));
+    return function(equations, set_shifted_rest(equations, time, q_independent, k, distance, motion, needed));
   };
   for (Eigen::Index k = 0; k < q_independent.size(); ++k) {
     const double h = kPositionStep * scale_of(equations, k);
@@ -89,11 +94,12 @@ Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, doubl
 }
 
 Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const StateFunction& function,
-                                          const SteadyMotion& motion) {
+                                          const SteadyMotion& motion, Needed needed) {
   const Eigen::Index f = equations.num_freedoms();
   Eigen::MatrixXd derivative;
   const auto value_at = [&](Eigen::Index k, double velocity) {
-    return function(equations, set_velocities(equations, velocity * Eigen::VectorXd::Unit(f, k), motion));
+    return function(equations,
+                    set_velocities(equations, velocity * Eigen::VectorXd::Unit(f, k), motion, needed));
   };
   for (Eigen::Index k = 0; k < f; ++k) {
     const double step = kVelocityStep * scale_of(equations, k);
@@ -111,14 +117,17 @@ std::vector<Kink> find_kinks(PartitionedEquations& equations, double time,
   std::vector<Kink> kinks;
   for (Eigen::Index k = 0; k < f; ++k) {
     const double reach = 2.0 * kPositionStep * scale_of(equations, k);
-    const std::vector<int> ahead = set_shifted_rest(equations, time, q_independent, k, reach, {});
-    add_changed(model, ahead, set_shifted_rest(equations, time, q_independent, k, -reach, {}), true, kinks);
+    const std::vector<int> ahead =
+        set_shifted_rest(equations, time, q_independent, k, reach, {}, Needed::kForces);
+    add_changed(model, ahead,
+                set_shifted_rest(equations, time, q_independent, k, -reach, {}, Needed::kForces), true,
+                kinks);
   }
-  if (f > 0) set_shifted_rest(equations, time, q_independent, 0, 0.0, {});
+  if (f > 0) set_shifted_rest(equations, time, q_independent, 0, 0.0, {}, Needed::kForces);
   for (Eigen::Index k = 0; k < f; ++k) {
     const Eigen::VectorXd velocity = kVelocityStep * scale_of(equations, k) * Eigen::VectorXd::Unit(f, k);
-    const std::vector<int> forward = set_velocities(equations, velocity, {});
-    add_changed(model, forward, set_velocities(equations, -velocity, {}), false, kinks);
+    const std::vector<int> forward = set_velocities(equations, velocity, {}, Needed::kForces);
+    add_changed(model, forward, set_velocities(equations, -velocity, {}, Needed::kForces), false, kinks);
   }
   return kinks;
 }

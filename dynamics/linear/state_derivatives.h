@@ -15,7 +15,10 @@ namespace sprung::dynamics {
 /// difference is of the order of step⁴, its rounding of 1e-16/step.
 inline constexpr double kPositionStep = 1e-4;
 
-/// Computes p values from the state that the equations were evaluated at, positions to accelerations.
+/// What a function of the state needs beside positions and velocities: accelerations come with the forces.
+enum class Needed { kForces, kAccelerations };
+
+/// Computes p values from the state that the equations were evaluated at.
 using StateFunction =
     std::function<Eigen::VectorXd(const PartitionedEquations& equations, std::span<const int> branches)>;
 
@@ -28,13 +31,15 @@ using StateFunction =
 /// @throws support::NumericalError where the constraints cannot be satisfied around q_independent
 Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, double time,
                                           const Eigen::VectorXd& q_independent, const StateFunction& function,
-                                          const SteadyMotion& motion = {});
+                                          const SteadyMotion& motion = {},
+                                          Needed needed = Needed::kAccelerations);
 
 /// Likewise with respect to the independent velocities, by central differences about rest at the positions
 /// that the equations were last evaluated at.
 /// @return p×f
 Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const StateFunction& function,
-                                          const SteadyMotion& motion = {});
+                                          const SteadyMotion& motion = {},
+                                          Needed needed = Needed::kAccelerations);
 
 /// A force element whose branch changes within the differences above.
 struct Kink {

@@ -188,6 +188,11 @@ PartitionedEquations::Outcome PartitionedEquations::update_motion(double time,
   return Outcome::kNotAssembled;
 }
 
+void PartitionedEquations::update_forces(std::span<const int> branches) {
+  mutable_terms().update_mass();
+  mutable_terms().update_forces(branches);
+}
+
 PartitionedEquations::Outcome PartitionedEquations::update_accelerations(std::span<const int> branches) {
   return full_.update_accelerations(branches) ? Outcome::kGood : Outcome::kNotFinite;
 }

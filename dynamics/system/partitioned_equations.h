@@ -58,7 +58,9 @@ class PartitionedEquations {
                         std::span<const double> v_independent);
   /// Whether the equations stand at this motion, velocities included.
   bool is_at(double time, std::span<const double> q_independent, std::span<const double> v_independent) const;
-  /// Accelerations and multipliers, after update_velocities: M q̈ + φ_qᵀλ = Q.
+  /// Masses and forces alone, after update_velocities.
+  void update_forces(std::span<const int> branches);
+  /// Accelerations and multipliers with them: M q̈ + φ_qᵀλ = Q.
   Outcome update_accelerations(std::span<const int> branches);
 
   /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (joints, eq. 6).
