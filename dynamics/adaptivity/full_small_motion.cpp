@@ -13,6 +13,21 @@ namespace {
 
 constexpr double kLeastPivot = 1e-6;  // of the largest entry
 
+// A T, with T the identity but for one row.
+void multiply_by_row(Eigen::MatrixXd& A, Eigen::Index place, const Eigen::RowVectorXd& row) {
+  const Eigen::VectorXd column = A.col(place);
+  A.col(place).setZero();
+  A.noalias() += column * row;
+}
+
+// Tᵀ A T.
+void multiply_on_both_sides(Eigen::MatrixXd& A, Eigen::Index place, const Eigen::RowVectorXd& row) {
+  multiply_by_row(A, place, row);
+  const Eigen::RowVectorXd of_place = A.row(place);
+  A.row(place).setZero();
+  A.noalias() += row.transpose() * of_place;
+}
+
 }  // namespace
 
 FullSmallMotion::FullSmallMotion(const Model& full, double time, const Eigen::VectorXd& q,
@@ -80,13 +95,12 @@ void FullSmallMotion::make_independent(int coordinate, Eigen::MatrixXd& directio
     pivot = i;
   }
   if (pivot < 0) return;
-  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(row.size(), row.size());
-  T.row(pivot) = -row / row[pivot];
-  T(pivot, pivot) = 1.0 / row[pivot];
-  directions = (directions * T).eval();
+  Eigen::RowVectorXd of_pivot = -row / row[pivot];
+  of_pivot[pivot] = 1.0 / row[pivot];
+  multiply_by_row(directions, pivot, of_pivot);
   for (Eigen::MatrixXd* matrix : {&motion_.mass, &motion_.damping, &motion_.stiffness})
-    *matrix = (T.transpose() * *matrix * T).eval();
-  stiffness_rounding_ = (T.cwiseAbs().transpose() * stiffness_rounding_ * T.cwiseAbs()).eval();
+    multiply_on_both_sides(*matrix, pivot, of_pivot);
+  multiply_on_both_sides(stiffness_rounding_, pivot, of_pivot.cwiseAbs());
   independent_[static_cast<std::size_t>(pivot)] = coordinate;
 }
 

@@ -6,6 +6,7 @@
 #include "dynamics/linear/first_order_form.h"
 #include "tools/support/dense/dense_solvers.h"
 #include "tools/support/dense/eigenproblems.h"
+#include "tools/support/dense/wide_product.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -18,6 +19,11 @@ constexpr int kTerms = 14;             // of them: 1e-16
 constexpr double kWorstBasis = 1e-13;  // reciprocal condition of eigenvectors
 
 using Complex = std::complex<double>;
+
+// Product of finite numbers: that of the standard looks for infinity and NaN.
+Complex times(Complex a, Complex b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
 
 // φ_1 … φ_4 of z: φ_1 = (e^z − 1)/z, φ_k+1 = (φ_k − 1/k!)/z.
 std::array<Complex, 5> calc_phi(Complex z) {
@@ -41,6 +47,15 @@ std::array<Complex, 5> calc_phi(Complex z) {
     phi[k] = sum;
   }
   return phi;
+}
+
+// With s the share of the step h that has passed, ∫ of the force as the cubic F + h (b s + (3c − 2b − e) s² +
+// (b + e − 2c) s³): what ζ, F, b, c and e are multiplied by.
+std::array<Complex, 5> calc_step_weights(Complex rate, double h) {
+  const std::array<Complex, 5> phi = calc_phi(rate * h);
+  const Complex second = 2.0 * phi[3], third = 6.0 * phi[4];
+  return {phi[0], h * phi[1], h * h * (phi[2] - 2.0 * second + third), h * h * (3.0 * second - 2.0 * third),
+          h * h * (third - second)};
 }
 
 }  // namespace
@@ -84,9 +99,9 @@ bool MissingMotion::take(const SmallMotion& small, const Eigen::MatrixXd& roundi
   const FirstOrderForm form = make_first_order_form(small.mass, small.damping, small.stiffness, rounding);
   const auto pairs = support::solve_general(form.A);
   const Eigen::Index n = form.num_bound(), f = form.V.cols(), size = form.A.rows();
-  const support::LuFactors X =
-      pairs ? support::factorise_lu(pairs->real_vectors) : support::LuFactors{.lu = {}};
-  if (!pairs || (size > 0 && X.reciprocal_condition < kWorstBasis)) return false;
+  if (!pairs) return false;
+  vectors_ = support::factorise_lu(pairs->real_vectors);
+  if (size > 0 && vectors_.reciprocal_condition < kWorstBasis) return false;
   for (Eigen::Index i = 0; i < size; ++i) {
     const Complex value = pairs->values[i];
     const bool is_pair = value.imag() != 0.0;
@@ -96,16 +111,17 @@ bool MissingMotion::take(const SmallMotion& small, const Eigen::MatrixXd& roundi
   states_.resize(parts_.size());
   Eigen::MatrixXd inputs = Eigen::MatrixXd::Zero(size, of_modes.rows());
   inputs.bottomRows(f) = form.V.transpose() * of_modes.transpose();
-  to_parts_ = X.solve(Eigen::MatrixXd::Identity(size, size));
-  forcing_ = to_parts_ * inputs;
+  forcing_ = vectors_.solve(inputs);
   const Eigen::MatrixXd by_motion = of_points * form.V;
-  of_states_ = by_motion * form.A.bottomRows(f) * pairs->real_vectors;
-  direct_ = by_motion * inputs.bottomRows(f);
+  to_accelerations_.resize(by_motion.rows(), size + of_modes.rows());
+  to_accelerations_ << by_motion * form.A.bottomRows(f) * pairs->real_vectors,
+      by_motion * inputs.bottomRows(f);
   static_states_ = Eigen::MatrixXd::Zero(size, of_modes.rows());
   static_states_.topRows(n) = form.scale.cwiseInverse().asDiagonal() * inputs.bottomRows(n);
   rate_states_ = Eigen::MatrixXd::Zero(size, f);
   rate_states_.bottomRows(f) = form.V.transpose() * small.mass;
-  places_ = Eigen::VectorXd::Zero(size);
+  driving_ = Eigen::VectorXd::Zero(size);
+  places_and_forces_ = Eigen::VectorXd::Zero(size + of_modes.rows());
   return true;
 }
 
@@ -114,21 +130,21 @@ Complex MissingMotion::select(const Eigen::VectorXd& values, const Part& part) c
 }
 
 void MissingMotion::begin(const Eigen::VectorXd& forces, const Eigen::VectorXd& v) {
-  Eigen::VectorXd states = Eigen::VectorXd::Zero(places_.size());
+  Eigen::VectorXd states = Eigen::VectorXd::Zero(driving_.size());
   if (start_.is_balanced) states = static_states_ * forces;
   if (start_.rates.size() > 0) states += rate_states_ * motion_->select_independent(start_.rates - v);
-  const Eigen::VectorXd places = to_parts_ * states;
+  const Eigen::VectorXd places = vectors_.solve(states);
   for (std::size_t i = 0; i < parts_.size(); ++i) states_[i].place = select(places, parts_[i]);
   has_begun_ = true;
 }
 
 void MissingMotion::update(double step, const Eigen::VectorXd& forces, const Eigen::VectorXd& v) {
   if (!has_begun_) begin(forces, v);
-  driving_.noalias() = forcing_ * forces;
+  support::multiply(forcing_, forces.data(), driving_.data());
   const bool knows_slopes = last_step_ > 0.0;
-  if (step > 0.0 && std::abs(step - phi_step_) > kEqualStep * step) {
-    for (Part& part : parts_) part.phi = calc_phi(part.rate * step);
-    phi_step_ = step;
+  if (step > 0.0 && std::abs(step - weighted_step_) > kEqualStep * step) {
+    for (Part& part : parts_) part.weights = calc_step_weights(part.rate, step);
+    weighted_step_ = step;
   }
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
@@ -140,21 +156,19 @@ void MissingMotion::update(double step, const Eigen::VectorXd& forces, const Eig
       const Complex chord = (force - state.force) / step;
       const Complex begin = knows_slopes ? state.slope : chord;
       const Complex end = knows_slopes ? chord + step / (step + last_step_) * (chord - state.chord) : chord;
-      const Complex second = 3.0 * chord - 2.0 * begin - end, third = begin + end - 2.0 * chord;
-      const std::array<Complex, 5>& phi = part.phi;
-      state.place = phi[0] * state.place +
-                    step * (phi[1] * state.force +
-                            step * (phi[2] * begin + 2.0 * phi[3] * second + 6.0 * phi[4] * third));
+      const auto& [of_place, of_force, of_begin, of_chord, of_end] = part.weights;
+      state.place = times(of_place, state.place) + times(of_force, state.force) + times(of_begin, begin) +
+                    times(of_chord, chord) + times(of_end, end);
       state.chord = chord;
       state.slope = end;
     }
     state.force = force;
-    places_[part.column] = state.place.real();
-    if (part.is_pair) places_[part.column + 1] = state.place.imag();
+    places_and_forces_[part.column] = state.place.real();
+    if (part.is_pair) places_and_forces_[part.column + 1] = state.place.imag();
   }
   last_step_ = step;
-  accelerations_.noalias() = of_states_ * places_;
-  accelerations_.noalias() += direct_ * forces;
+  places_and_forces_.tail(forces.size()) = forces;
+  support::multiply(to_accelerations_, places_and_forces_.data(), accelerations_.data());
 }
 
 }  // namespace sprung::dynamics

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/adaptivity/full_small_motion.h"
+#include "tools/support/dense/dense_solvers.h"
 
 namespace sprung::dynamics {
 
@@ -56,7 +57,7 @@ class MissingMotion {
     std::complex<double> rate;  // μ [1/s]
     Eigen::Index column = 0;    // among the eigenvectors
     bool is_pair = false;
-    std::array<std::complex<double>, 5> phi = {};  // of μh, for steps of the length below
+    std::array<std::complex<double>, 5> weights = {};  // for steps of the length below
   };
   struct State {
     std::complex<double> place = {}, force = {};  // ζ, and g at the last update
@@ -77,15 +78,15 @@ class MissingMotion {
   MissingStart start_;
   std::vector<Part> parts_;
   std::vector<State> states_;  // of each part
-  // The states z = Xζ follow ż = A z + forcing·r; accelerations of the points = of_states·ζ + direct·r.
-  Eigen::MatrixXd forcing_, of_states_, direct_;  // by eigenvector and mode, by point and eigenvector or mode
-  Eigen::MatrixXd to_parts_;                      // X⁻¹
-  Eigen::MatrixXd static_states_;                 // of a force on each mode
-  Eigen::MatrixXd rate_states_;                   // of the rates of the independent coordinates
-  double phi_step_ = 0.0;
+  // The states z = Xζ follow ż = A z + forcing·r; accelerations of the points = to_accelerations·(ζ, r).
+  Eigen::MatrixXd forcing_, to_accelerations_;  // by eigenvector and mode, by point and eigenvector or mode
+  support::LuFactors vectors_{.lu = {}};        // X
+  Eigen::MatrixXd static_states_;               // of a force on each mode
+  Eigen::MatrixXd rate_states_;                 // of the rates of the independent coordinates
+  double weighted_step_ = 0.0;
   double last_step_ = 0.0;  // 0 where the slopes are not known
   bool has_begun_ = false;
-  Eigen::VectorXd driving_, places_, accelerations_;
+  Eigen::VectorXd driving_, places_and_forces_, accelerations_;
 };
 
 }  // namespace sprung::dynamics
