@@ -9,6 +9,7 @@ import unittest
 import numpy as np
 from tool_test_case import ToolTestCase
 
+from sprung_tools.benchmark.many_runs import ManyRuns, check_many_runs, format_many_runs
 from sprung_tools.benchmark.tables import format_runs
 from sprung_tools.benchmark.targets import check_targets
 from sprung_tools.benchmark.whole_runs import (
@@ -123,6 +124,12 @@ class Judging(unittest.TestCase):
         table = format_runs(results, firsts, {"bump": 5.0})
         self.assertIn("–", table.splitlines()[-1])
 
+    def test_a_run_of_each_kind_is_compared_with_its_own_integration(self):
+        kinds = {"bump": ManyRuns(1.0, 0.875, 0.25), "terrain": ManyRuns(3.0, None, 1.0)}
+        ratios = [line.split()[-3] for line in format_many_runs(kinds).splitlines()[2:]]
+        self.assertEqual(ratios, ["4.00", "3.50", "1.00", "3.00", "1.00"])
+        self.assertEqual([target[1:] for target in check_many_runs(kinds)], [("≤ 3.75", 3.5, True)])
+
 
 class Tool(ToolTestCase):
     def test_builds_of_lattices_are_measured(self):
@@ -179,6 +186,9 @@ class Tool(ToolTestCase):
         self.assert_succeeds(process)
         for heading in ("One evaluation", "Whole runs", "Many runs", "The bump", "Growth", "Targets"):
             self.assertRegex(process.stdout, rf"(?m)^{heading}")
+        beside = re.findall(r"(?m)^(bump|bump, stored|terrain) +a process for each run .* (\S+) ms$", process.stdout)
+        self.assertEqual([run for run, _ in beside], ["bump", "bump, stored", "terrain"])
+        self.assertGreater(min(float(milliseconds) for _, milliseconds in beside), 0.0)
         certified, clamped = re.findall(r"(?m)^(certified|clamped) +(\d+) +\d+ .* (\S+)$", process.stdout)
         self.assertEqual((certified[:2], clamped), (("certified", "20"), ("clamped", "20", "1.00")))
         self.assertGreater(float(certified[2]), 0.0)

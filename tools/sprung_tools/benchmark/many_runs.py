@@ -1,7 +1,8 @@
-"""Many runs of the truck over its bump, as a study makes them: a process for each, or all in one process."""
+"""Runs of the truck as a study makes them: a process for each, or all in one process."""
 
 import json
 import resource
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -17,8 +18,21 @@ from sprung_tools.programs.calls import Outcome, call, make_command
 from sprung_tools.programs.in_process import call_here, load_module
 from sprung_tools.terminal.text_table import format_table
 
-RUN = ROOT / "dynamics/models/truck/bump.toml"
-WANTED_SHARE = 15.0 / 4.0  # of a run in all to its integration
+WANTED_SHARE = 15.0 / 4.0  # of a run of the bump in all to its integration
+
+
+class Kind(NamedTuple):
+    """What is run: a file, with the outputs that it asks for, and whether they are stored in a results file."""
+
+    run: Path
+    is_stored: bool = False
+
+
+KINDS = {
+    "bump": Kind(ROOT / "dynamics/models/truck/bump.toml"),
+    "bump, stored": Kind(ROOT / "dynamics/models/truck/bump.toml", is_stored=True),
+    "terrain": Kind(ROOT / "dynamics/models/truck/terrain.toml"),
+}
 
 
 class ManyRuns(NamedTuple):
@@ -30,14 +44,31 @@ class ManyRuns(NamedTuple):
     integration: float
 
 
-def measure_many_runs(program: Path, superelements: Path, repetitions: int, duration: float | None) -> ManyRuns:
+def measure_many_runs(
+    program: Path, superelements: Path, repetitions: int, duration: float | None
+) -> dict[str, ManyRuns]:
+    """Measures runs of all kinds."""
+    with tempfile.TemporaryDirectory() as folder:
+        results = Path(folder) / "results.h5"
+        return {
+            name: measure_kind(program, superelements, kind, results, repetitions, duration)
+            for name, kind in KINDS.items()
+        }
+
+
+def measure_kind(
+    program: Path, superelements: Path, kind: Kind, results: Path, repetitions: int, duration: float | None
+) -> ManyRuns:
     """Measures runs in turns, so that a drift of the machine's speed meets all. Returns medians."""
-    end = duration if duration is not None else float(TomlFile(RUN).data["duration"])
-    settings = [f"duration={end}"]
-    command = make_command(program, "run", RUN, superelements, settings)
+    end = duration if duration is not None else float(TomlFile(kind.run).data["duration"])
+    # Of a shortened run the statistics end with it.
+    settings = [f"duration={end}", *([f"statistics.to={end}"] if duration is not None else [])]
+    command = make_command(program, "run", kind.run, superelements, settings, results if kind.is_stored else None)
     # Outputs at the start and the end only, and no modes left out are followed.
-    settings += [f"output_step={end}", "adaptivity.indicator=false"]
-    bare = make_command(program, "run", RUN, superelements, settings)
+    bare = make_command(
+        program, "run", kind.run, superelements,
+        [*settings, f"output_step={end}", "adaptivity.indicator=false"],
+    )  # fmt: skip
     has_module = load_module(program).call is not None
     if has_module:
         check(call_here(command))  # fills the caches
@@ -68,24 +99,25 @@ def check(outcome: Outcome) -> Outcome:
     return outcome
 
 
-def format_many_runs(runs: ManyRuns) -> str:
+def format_many_runs(kinds: dict[str, ManyRuns]) -> str:
     """A table of the costs."""
-    rows = [("a process for each run", runs.by_process)]
-    if runs.in_process is not None:
-        rows.append(("all runs in one process", runs.in_process))
-    rows.append(("integration alone, without outputs", runs.integration))
-    return format_table(
-        ("", "CPU time", "runs per second and core", "to the integration", "beside the integration"),
-        [
-            (name, f"{1e3 * cost:.1f} ms", f"{1.0 / cost:.1f}", f"{cost / runs.integration:.2f}",
+    rows = []
+    for kind, runs in kinds.items():
+        costs = {"a process for each run": runs.by_process, "all runs in one process": runs.in_process,
+                 "integration alone, without outputs": runs.integration}  # fmt: skip
+        rows += [
+            (kind, name, f"{1e3 * cost:.1f} ms", f"{1.0 / cost:.1f}", f"{cost / runs.integration:.2f}",
              f"{1e3 * (cost - runs.integration):.1f} ms")
-            for name, cost in rows
-        ],
-    )  # fmt: skip
+            for name, cost in costs.items()
+            if cost is not None
+        ]  # fmt: skip
+    headings = ("run", "", "CPU time", "runs per second and core", "to the integration", "beside the integration")
+    return format_table(headings, rows)
 
 
-def check_many_runs(runs: ManyRuns) -> list[Target]:
+def check_many_runs(kinds: dict[str, ManyRuns]) -> list[Target]:
     """The target for many runs."""
+    runs = kinds["bump"]
     if runs.in_process is None:
         return []
     share = runs.in_process / runs.integration

@@ -134,7 +134,7 @@ def main() -> int:
             "One evaluation (positions, velocities, accelerations)\n" + format_evaluations(times),
             "Whole runs at the loosest tolerance that is good enough, as are the next two finer ones\n"
             + format_runs(results, firsts, durations),
-            "Many runs of the bump with the outputs of its file, results as JSON\n"
+            "Many runs with the outputs of their files, without results files and with them\n"
             + format_many_runs(many),
             "The bump with a certified basis of the chassis, and with as many clamped modes\n" + format_bases(bases),
             "Growth with the number of bodies (adams, 1e-6)\n" + format_growth(growth),
