@@ -105,24 +105,18 @@ void add_soft_modes(Body& body, const reduce::Superelement& superelement) {
   for (int k = 1; k <= q; ++k) body.mode_numbers.push_back(superelement.num_modes() + k);
 }
 
-InertiaMargin calc_inertia_margin(const Body& body, Eigen::Index num_modes, const SoftStiffness& stiffness,
-                                  const Eigen::VectorXd& eta) {
-  constexpr double kWeight =
-      4.0;  // α of (linear, eq. 18): a quarter more mass of soft modes, and little rotation
-  const Eigen::Index n = num_modes, q = eta.size() - n;
-  const Eigen::Matrix3d rigid = make_rigid_mass(body);
-  const Eigen::MatrixXd momenta = make_momenta(body, n), rotations = rigid.ldlt().solve(momenta);
-  const Eigen::MatrixXd elastic_mass = body.M_ff.topLeftCorner(n, n) - momenta.transpose() * rotations;
-  const Eigen::VectorXd kept = eta.head(n), soft = eta.tail(q);
-  const double known = std::sqrt(std::max(0.0, kept.dot(elastic_mass * kept)));
-  const double missed = std::sqrt(soft.cwiseAbs2().dot(stiffness.at_rest.cwiseQuotient(stiffness.in_motion)));
-  const double central = body.second_moment - body.first_moment.squaredNorm() / body.mass;
-  const Eigen::VectorXd of_frame = rotations.row(2).transpose();
-  const double reach = std::numbers::sqrt2 / std::sqrt(central) +
-                       2.0 * std::sqrt(std::max(0.0, of_frame.dot(elastic_mass.ldlt().solve(of_frame))));
-  return {.of_rotation = kWeight * std::pow(known + missed, 2),
-          .of_soft_mode = 1.0 / kWeight,
-          .relative = missed * reach + missed * (missed + 2.0 * known) * reach * reach};
+UnknownInertia calc_unknown_inertia(const Body& body, Eigen::Index num_modes, const SoftStiffness& stiffness,
+                                    const Eigen::VectorXd& amplitudes) {
+  const Eigen::VectorXd kept = amplitudes.head(num_modes),
+                        soft = amplitudes.tail(amplitudes.size() - num_modes);
+  const Eigen::MatrixXd momenta = make_momenta(body, num_modes);
+  UnknownInertia unknown;
+  unknown.elastic_mass = body.M_ff.topLeftCorner(num_modes, num_modes) -
+                         momenta.transpose() * make_rigid_mass(body).ldlt().solve(momenta);
+  unknown.known = std::sqrt(std::max(0.0, kept.dot(unknown.elastic_mass * kept)));
+  unknown.missed = std::sqrt(soft.cwiseAbs2().dot(stiffness.at_rest.cwiseQuotient(stiffness.in_motion)));
+  unknown.radius = std::sqrt(body.second_moment - body.first_moment.squaredNorm() / body.mass);
+  return unknown;
 }
 
 }  // namespace sprung::dynamics

@@ -22,15 +22,16 @@ SoftStiffness calc_soft_stiffness(const reduce::Certificate& certificate);
 /// @param superelement  of the body, with a certificate
 void add_soft_modes(Body& body, const reduce::Superelement& superelement);
 
-/// How much the inertia of the true body may differ from that of the body with soft modes, because what is
-/// known of them is their motion at the interface and not all over the body (linear, eqs. 18, 19).
-struct InertiaMargin {
-  double of_rotation = 0.0;   ///< second moment that is added to the body's [kg·m²]
-  double of_soft_mode = 0.0;  ///< mass that is added to each soft mode's
-  double relative = 0.0;      ///< of all of the body's inertia, more or less
+/// What is not known of the inertia of the true body when it is deflected, since of what the basis misses
+/// only the motion at the interface is known and not that all over the body (linear, eqs. 19, 20).
+struct UnknownInertia {
+  double known = 0.0, missed = 0.0;  ///< ‖u‖, ‖u_m‖ of the deflection at rest [m·√kg]
+  double radius = 0.0;               ///< √J_c [m·√kg]
+  Eigen::MatrixXd elastic_mass;      ///< M_ff − HᵀM_r⁻¹H of its own modes, n×n
 };
-/// @param body  with soft modes, whose numbers are above num_modes   @param eta  amplitudes at rest
-InertiaMargin calc_inertia_margin(const Body& body, Eigen::Index num_modes, const SoftStiffness& stiffness,
-                                  const Eigen::VectorXd& eta);
+/// @param body       with its soft modes behind its num_modes own ones
+/// @param amplitudes of all of them at rest
+UnknownInertia calc_unknown_inertia(const Body& body, Eigen::Index num_modes, const SoftStiffness& stiffness,
+                                    const Eigen::VectorXd& amplitudes);
 
 }  // namespace sprung::dynamics

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "dynamics/bodies/body_equations.h"
 #include "dynamics/input/uncovered_loads.h"
@@ -121,20 +122,51 @@ Eigen::VectorXd insert_soft_modes(const SoftTwin& twin, const Eigen::VectorXd& q
   return inserted;
 }
 
-Softening make_softening(const SoftTwin& twin, const Eigen::VectorXd& q) {
-  Softening softening{.stiffness = Eigen::VectorXd::Zero(q.size()), .mass = Eigen::VectorXd::Zero(q.size())};
+Eigen::VectorXd make_softening(const SoftTwin& twin) {
+  Eigen::VectorXd softening = Eigen::VectorXd::Zero(twin.model.num_coordinates);
+  for (const SoftTwin::SoftBody& soft : twin.bodies)
+    softening.segment(find_first_soft(twin, soft), soft.stiffness.at_rest.size()) =
+        soft.stiffness.in_motion - soft.stiffness.at_rest;
+  return softening;
+}
+
+UnknownMass make_unknown_mass(const SoftTwin& twin, const Eigen::VectorXd& q) {
+  std::vector<UnknownInertia> unknown;
   for (const SoftTwin::SoftBody& soft : twin.bodies) {
     const Body& body = twin.model.bodies[soft.body];
-    const Eigen::Index count = soft.stiffness.at_rest.size(), first = find_first_soft(twin, soft);
-    if (count == 0) continue;
-    const Eigen::VectorXd eta = q.segment(body.first_coordinate + 3, body.num_modes());
-    const InertiaMargin margin = calc_inertia_margin(body, soft.num_modes, soft.stiffness, eta);
-    softening.stiffness.segment(first, count) = soft.stiffness.in_motion - soft.stiffness.at_rest;
-    softening.mass.segment(first, count).setConstant(margin.of_soft_mode);
-    softening.mass[body.first_coordinate + 2] = margin.of_rotation;
-    softening.of_inertia = std::max(softening.of_inertia, margin.relative);
+    unknown.push_back(calc_unknown_inertia(body, soft.num_modes, soft.stiffness,
+                                           q.segment(body.first_coordinate + 3, body.num_modes())));
   }
-  return softening;
+  const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(q.size(), q.size());
+  // Adds what is unknown of each body, with the weights √J_c/‖u_m‖ times b, and √J_c/‖u‖ times a if there is
+  // a.
+  const auto make_mass = [&](double b, std::optional<double> a) {
+    Eigen::MatrixXd mass = nothing;
+    for (std::size_t i = 0; i < unknown.size(); ++i) {
+      const SoftTwin::SoftBody& soft = twin.bodies[i];
+      const auto& [known, missed, radius, elastic_mass] = unknown[i];
+      if (missed == 0.0) continue;
+      const Eigen::Index first = twin.model.bodies[soft.body].first_coordinate;
+      mass(first + 2, first + 2) += b * missed * radius + missed * (missed + 2.0 * known);
+      mass.block(first + 3, first + 3, soft.num_modes, soft.num_modes) +=
+          missed / (b * radius) * elastic_mass;
+      if (!a) continue;
+      const double all = known + missed;
+      mass(first + 2, first + 2) += *a * all * radius;
+      mass.diagonal().segment(first + 3 + soft.num_modes, soft.stiffness.at_rest.size()).array() +=
+          all / (*a * radius);
+    }
+    return mass;
+  };
+  std::vector<int> kept;
+  for (int i = 0; i < twin.model.num_coordinates; ++i)
+    if (!twin.is_soft[static_cast<std::size_t>(i)]) kept.push_back(i);
+  UnknownMass result;
+  for (const double b : {1e-2, 1e-1, 1.0, 10.0}) {
+    result.below.push_back(make_mass(b, {})(kept, kept));
+    for (const double a : {1e-3, 1e-2, 1e-1, 1.0}) result.above.push_back(make_mass(b, a));
+  }
+  return result;
 }
 
 }  // namespace sprung::dynamics

@@ -40,12 +40,16 @@ SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model);
 /// The coordinates of the soft twin where the model is at q and the soft modes are at zero.
 Eigen::VectorXd insert_soft_modes(const SoftTwin& twin, const Eigen::VectorXd& q);
 
-/// What makes the soft twin softer than the true vehicle, whose inertia is known within a margin.
-struct Softening {
-  Eigen::VectorXd stiffness, mass;  ///< for each coordinate: added to the diagonals; ≤ 0, ≥ 0
-  double of_inertia = 0.0;          ///< share of all inertia by which the true one may be more or less
+/// For each coordinate of the soft twin, what its stiffness changes by in small motion, ≤ 0.
+Eigen::VectorXd make_softening(const SoftTwin& twin);
+
+/// Mass matrices by which the kinetic energy of the true vehicle is at most above that of the soft twin, and
+/// below it, each for other weights of its parts (linear, eqs. 19, 20). With each of them the bounds hold.
+struct UnknownMass {
+  std::vector<Eigen::MatrixXd> above;  ///< for the coordinates of the soft twin
+  std::vector<Eigen::MatrixXd> below;  ///< for those that are no soft modes
 };
 /// @param q  coordinates of the soft twin at rest
-Softening make_softening(const SoftTwin& twin, const Eigen::VectorXd& q);
+UnknownMass make_unknown_mass(const SoftTwin& twin, const Eigen::VectorXd& q);
 
 }  // namespace sprung::dynamics

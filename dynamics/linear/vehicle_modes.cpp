@@ -7,6 +7,7 @@
 
 #include "dynamics/linear/first_order_form.h"
 #include "dynamics/linear/undamped_modes.h"
+#include "tools/support/dense/dense_solvers.h"
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -216,24 +217,40 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
 }
 
 FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q,
-                                      const Eigen::VectorXd& stiffness, const Eigen::VectorXd& mass) {
+                                      const Eigen::VectorXd& stiffness,
+                                      const std::vector<Eigen::MatrixXd>& masses) {
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, q);
   LinearisedSystem system = linearise(equations, 0.0, q);
   const Eigen::MatrixXd& D = system.directions;
   if (stiffness.size() > 0) system.stiffness += D.transpose() * stiffness.asDiagonal() * D;
-  if (mass.size() > 0) system.mass += D.transpose() * mass.asDiagonal() * D;
   // Internal states, the last coordinates, have no stiffness and are no modes.
   const Eigen::Index n = system.mass.rows() - model.num_states();
-  const UndampedModes modes =
-      calc_undamped_modes(system.stiffness.topLeftCorner(n, n), system.mass.topLeftCorner(n, n),
-                          system.stiffness_rounding.topLeftCorner(n, n));
   const auto sort_frequencies = [](Eigen::VectorXd omega_squared) -> Eigen::VectorXd {
     std::sort(omega_squared.begin(), omega_squared.end());
     return omega_squared.cwiseMax(0.0).cwiseSqrt() / (2.0 * pi);
   };
-  return {.lower = sort_frequencies(modes.omega_squared - modes.rounding),
-          .upper = sort_frequencies(modes.omega_squared + modes.rounding)};
+  FrequencyBounds bounds;
+  const auto add_bounds = [&](const Eigen::MatrixXd& mass) {
+    const Eigen::MatrixXd own_mass = mass.topLeftCorner(n, n);
+    if (!support::is_positive_definite(own_mass)) return;
+    const UndampedModes modes = calc_undamped_modes(system.stiffness.topLeftCorner(n, n), own_mass,
+                                                    system.stiffness_rounding.topLeftCorner(n, n));
+    const Eigen::VectorXd lower = sort_frequencies(modes.omega_squared - modes.rounding),
+                          upper = sort_frequencies(modes.omega_squared + modes.rounding);
+    const bool is_first = bounds.lower.size() == 0;
+    bounds = {.lower = is_first ? lower : bounds.lower.cwiseMax(lower),
+              .upper = is_first ? upper : bounds.upper.cwiseMin(upper)};
+  };
+  if (masses.empty()) add_bounds(system.mass);
+  for (const Eigen::MatrixXd& mass : masses) add_bounds(system.mass + D.transpose() * mass * D);
+  if (n > 0 && bounds.lower.size() == 0) {
+    throw support::NumericalError(
+        "brackets: the bodies deflect so far at rest that nothing is known of their inertia; take bases with "
+        "a "
+        "smaller tolerance, or stiffer reference nodes");
+  }
+  return bounds;
 }
 
 }  // namespace sprung::dynamics

@@ -42,10 +42,11 @@ struct FrequencyBounds {
 
 /// Those of a vehicle linearised about rest at q.
 /// @param stiffness  for each coordinate: of a spring in it without force at q; may be empty
-/// @param mass       for each coordinate: added to the diagonal of the mass; may be empty
-/// @throws support::NumericalError as linearise
+/// @param masses     each is added to the mass matrix of the coordinates and gives bounds of the same
+///                   frequencies, of which the tightest count; without mass that is positive it gives none
+/// @throws support::NumericalError as linearise, and where none of the masses gives bounds
 FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q,
                                       const Eigen::VectorXd& stiffness = {},
-                                      const Eigen::VectorXd& mass = {});
+                                      const std::vector<Eigen::MatrixXd>& masses = {});
 
 }  // namespace sprung::dynamics

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -23,8 +22,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kLargestMargin = 0.5;  // of the inertia of deflected bodies, beyond which nothing is proved
-constexpr double kUncertain = 1e-7;     // natural sizes: an equilibrium that is less exact is warned of
+constexpr double kUncertain = 1e-7;  // natural sizes: an equilibrium that is less exact is warned of
 
 void warn_of_rounding(const Equilibrium& equilibrium, std::vector<RunWarning>& warnings) {
   if (equilibrium.last_step <= kUncertain) return;
@@ -99,20 +97,12 @@ FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarnin
   std::vector<bool> is_active = twin.is_soft;
   is_active.flip();
   const HeldModes stiffer = hold_modes(twin.model, is_active, q);
-  const Softening softening = make_softening(twin, q);
-  const double margin = std::min(softening.of_inertia, kLargestMargin);
-  if (margin < softening.of_inertia) {
-    warnings.push_back(
-        {"modes",
-         {"frequencies"},
-         "the brackets are not proved: the bodies deflect so far at rest that their inertia is "
-         "not known; take bases with a smaller tolerance, or stiffer reference nodes"});
-  }
-  return {.lower_hz = calc_frequency_bounds(twin.model, q, softening.stiffness, softening.mass).lower /
-                      std::sqrt(1.0 + margin),
-          .upper_hz =
-              calc_frequency_bounds(stiffer.model, select_active(stiffer, q)).upper / std::sqrt(1.0 - margin),
-          .highest_hz = twin.highest_hz};
+  UnknownMass unknown = make_unknown_mass(twin, q);
+  for (Eigen::MatrixXd& mass : unknown.below) mass *= -1.0;
+  return {
+      .lower_hz = calc_frequency_bounds(twin.model, q, make_softening(twin), unknown.above).lower,
+      .upper_hz = calc_frequency_bounds(stiffer.model, select_active(stiffer, q), {}, unknown.below).upper,
+      .highest_hz = twin.highest_hz};
 }
 
 }  // namespace

@@ -7,15 +7,14 @@
 namespace sprung::dynamics {
 namespace {
 
-// The chassis has its reference in the middle, which is not in its interface.
-TEST_CASE("a soft twin without loads of the reference node, from an earlier program, proves nothing") {
+TEST_CASE("a soft twin that does not tell its deflection at rest, from an earlier program, proves nothing") {
   Vehicle truck = test::read_truck({"bodies.chassis.superelement=\"chassis_certified\""});
   reduce::Superelement& chassis = truck.superelements.at("chassis_certified");
   const FlatRoad flat;
   const PlacedRoad road{&flat};
   const Model model = test::make_truck(truck, chassis.num_modes(), road);
   CHECK(make_soft_twin(truck, model).unproved.empty());
-  chassis.certificate->soft_reference.resize(0, 0);
+  chassis.certificate->soft_static_share.resize(0);
   CHECK(make_soft_twin(truck, model).unproved == std::vector<std::string>{"chassis"});
 }
 
