@@ -163,7 +163,7 @@ UnknownMass make_unknown_mass(const SoftTwin& twin, const Eigen::VectorXd& q) {
     if (!twin.is_soft[static_cast<std::size_t>(i)]) kept.push_back(i);
   UnknownMass result;
   for (const double b : {1e-2, 1e-1, 1.0, 10.0}) {
-    result.below.push_back(make_mass(b, {})(kept, kept));
+    result.below.emplace_back(make_mass(b, {})(kept, kept));
     for (const double a : {1e-3, 1e-2, 1e-1, 1.0}) result.above.push_back(make_mass(b, a));
   }
   return result;
