@@ -138,14 +138,14 @@ UnknownMass make_unknown_mass(const SoftTwin& twin, const Eigen::VectorXd& q) {
                                            q.segment(body.first_coordinate + 3, body.num_modes())));
   }
   const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(q.size(), q.size());
-  // Adds what is unknown of each body, with the weights √J_c/‖u_m‖ times b, and √J_c/‖u‖ times a if there is
-  // a.
+  // Of each body, with the weights β = b √J_c/‖u_m‖ and, if there is a, α = a √J_c/‖u‖.
   const auto make_mass = [&](double b, std::optional<double> a) {
     Eigen::MatrixXd mass = nothing;
     for (std::size_t i = 0; i < unknown.size(); ++i) {
       const SoftTwin::SoftBody& soft = twin.bodies[i];
       const auto& [known, missed, radius, elastic_mass] = unknown[i];
-      if (missed == 0.0) continue;
+      const Eigen::Index num_soft = soft.stiffness.at_rest.size();
+      if (num_soft == 0) continue;
       const Eigen::Index first = twin.model.bodies[soft.body].first_coordinate;
       mass(first + 2, first + 2) += b * missed * radius + missed * (missed + 2.0 * known);
       mass.block(first + 3, first + 3, soft.num_modes, soft.num_modes) +=
@@ -153,8 +153,7 @@ UnknownMass make_unknown_mass(const SoftTwin& twin, const Eigen::VectorXd& q) {
       if (!a) continue;
       const double all = known + missed;
       mass(first + 2, first + 2) += *a * all * radius;
-      mass.diagonal().segment(first + 3 + soft.num_modes, soft.stiffness.at_rest.size()).array() +=
-          all / (*a * radius);
+      mass.diagonal().segment(first + 3 + soft.num_modes, num_soft).array() += all / (*a * radius);
     }
     return mass;
   };
