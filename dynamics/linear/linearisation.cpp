@@ -101,6 +101,7 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
   const Eigen::VectorXd q = equations.q(), forces = equations.terms().forces();
   const Eigen::Index f = q_i.size(), n = model.num_coordinates;
   // The reduced force, followed by the forces themselves, whose sizes give its rounding.
+  Eigen::MatrixXd spread;
   const Eigen::MatrixXd derivative = differentiate_by_position(
       equations, time, q_i,
       [&](const PartitionedEquations& at, auto) {
@@ -109,12 +110,13 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
         values << calc_relative_force(at, without_modal, motion), without_modal;
         return values;
       },
-      motion, needed_by(motion));
+      motion, needed_by(motion), &spread);
   const Eigen::MatrixXd& D = system.directions;
   system.stiffness = D.transpose() * apply_modal_stiffness(model, D) - derivative.topRows(f);
   // Internal states are rates: neither they nor forces depend on the coordinates that belong to them.
   system.stiffness.bottomRows(model.num_states()).setZero();
   system.stiffness.rightCols(model.num_states()).setZero();
+  system.stiffness_spread = spread.topRows(f);
 
   const Eigen::MatrixXd sizes = D.cwiseAbs();
   // Rounding errors of the dependent rows of D grow as the smallest pivot that they were solved with falls.

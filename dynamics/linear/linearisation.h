@@ -15,9 +15,10 @@ struct LinearisedSystem {
   Partition partition;
   Eigen::MatrixXd mass, damping, stiffness;  ///< f×f
   Eigen::MatrixXd stiffness_rounding;        ///< f×f, ≥ 0: R (linear, eq. 14)
-  Eigen::MatrixXd directions;                ///< nq×f, ∂q/∂q_i
-  Eigen::VectorXd force;                     ///< f, residual: 0 at an equilibrium
-  Eigen::VectorXd force_rounding;            ///< f, ≥ 0: r (linear, eq. 16)
+  Eigen::MatrixXd stiffness_spread;  ///< f×f, ≥ 0: of the slopes within the differences (linear, eq. 21)
+  Eigen::MatrixXd directions;        ///< nq×f, ∂q/∂q_i
+  Eigen::VectorXd force;             ///< f, residual: 0 at an equilibrium
+  Eigen::VectorXd force_rounding;    ///< f, ≥ 0: r (linear, eq. 16)
 };
 
 /// Linearises the vehicle about rest, or about steady motion in the coordinates relative to it

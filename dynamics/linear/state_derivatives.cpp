@@ -78,17 +78,26 @@ void add_changed(const Model& model, const std::vector<int>& one, const std::vec
 
 Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, double time,
                                           const Eigen::VectorXd& q_independent, const StateFunction& function,
-                                          const SteadyMotion& motion, Needed needed) {
+                                          const SteadyMotion& motion, Needed needed,
+                                          Eigen::MatrixXd* spread) {
   Eigen::MatrixXd derivative;
-  const auto value_at = [&](Eigen::Index k, double distance) {
+  const auto value_at = [&](Eigen::Index k, double distance) -> Eigen::VectorXd {
     return function(equations, set_shifted_rest(equations, time, q_independent, k, distance, motion, needed));
   };
+  Eigen::VectorXd middle;
+  if (spread && q_independent.size() > 0) middle = value_at(0, 0.0);
   for (Eigen::Index k = 0; k < q_independent.size(); ++k) {
     const double h = kPositionStep * scale_of(equations, k);
-    const Eigen::VectorXd wide = (value_at(k, 2.0 * h) - value_at(k, -2.0 * h)) / (4.0 * h);
-    const Eigen::VectorXd narrow = (value_at(k, h) - value_at(k, -h)) / (2.0 * h);
+    const Eigen::VectorXd far = value_at(k, 2.0 * h), far_back = value_at(k, -2.0 * h), near = value_at(k, h),
+                          near_back = value_at(k, -h);
+    const Eigen::VectorXd wide = (far - far_back) / (4.0 * h), narrow = (near - near_back) / (2.0 * h);
     if (k == 0) derivative.resize(wide.size(), q_independent.size());
     derivative.col(k) = (4.0 * narrow - wide) / 3.0;
+    if (!spread) continue;
+    if (k == 0) spread->resize(wide.size(), q_independent.size());
+    const Eigen::VectorXd wide_change = (far + far_back - 2.0 * middle) / (2.0 * h),
+                          narrow_change = (near + near_back - 2.0 * middle) / h;
+    spread->col(k) = (narrow - wide).cwiseAbs() + (wide_change - 2.0 * narrow_change).cwiseAbs();
   }
   return derivative;
 }

@@ -27,12 +27,16 @@ using StateFunction =
 /// the mean of its slopes. The equations are left at the last point evaluated.
 /// @param q_independent  f
 /// @param motion         rest means rest relative to this motion
+/// @param[out] spread    p×f, ≥ 0: how far the slopes within the differences lie apart, by kinks and by
+/// strong
+///                       curvature (linear, eq. 21); may be null
 /// @return p×f
 /// @throws support::NumericalError where the constraints cannot be satisfied around q_independent
 Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, double time,
                                           const Eigen::VectorXd& q_independent, const StateFunction& function,
                                           const SteadyMotion& motion = {},
-                                          Needed needed = Needed::kAccelerations);
+                                          Needed needed = Needed::kAccelerations,
+                                          Eigen::MatrixXd* spread = nullptr);
 
 /// Likewise with respect to the independent velocities, by central differences about rest at the positions
 /// that the equations were last evaluated at.

@@ -44,7 +44,8 @@ struct FrequencyBounds {
 /// @param stiffness  for each coordinate: of a spring in it without force at q; may be empty
 /// @param masses     each is added to the mass matrix of the coordinates and gives bounds of the same
 ///                   frequencies, of which the tightest count; without mass that is positive it gives none
-/// @throws support::NumericalError as linearise, and where none of the masses gives bounds
+/// @throws support::NumericalError as linearise, where none of the masses gives bounds, and where the
+///         stiffness is not symmetric
 FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q,
                                       const Eigen::VectorXd& stiffness = {},
                                       const std::vector<Eigen::MatrixXd>& masses = {});

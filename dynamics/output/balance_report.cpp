@@ -180,8 +180,9 @@ std::string format_bracket(const std::vector<VehicleMode>& modes, const Frequenc
   const std::string band =
       std::isfinite(bracket.highest_hz) ? fmt::format(" up to {:.6g} Hz", bracket.highest_hz) : "";
   return fmt::format(
-      "\nBrackets of the undamped frequencies{}, of the vehicle with all motions of its bodies, linearised "
-      "about its equilibrium, with the body frames at their reference nodes\n{}",
+      "\nBrackets of the undamped frequencies{}, of the vehicle with all motions of the bodies that have "
+      "modes "
+      "here, linearised about its equilibrium, with the body frames at their reference nodes\n{}",
       band, table.str());
 }
 

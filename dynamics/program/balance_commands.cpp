@@ -100,7 +100,8 @@ FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarnin
   UnknownMass unknown = make_unknown_mass(twin, q);
   for (Eigen::MatrixXd& mass : unknown.below) mass *= -1.0;
   return {
-      .lower_hz = calc_frequency_bounds(twin.model, q, make_softening(twin), unknown.above).lower,
+      .lower_hz = calc_frequency_bounds(twin.model, q, make_softening(twin), unknown.above)
+                      .lower.cwiseMin(twin.highest_hz),  // beyond the band nothing is proved
       .upper_hz = calc_frequency_bounds(stiffer.model, select_active(stiffer, q), {}, unknown.below).upper,
       .highest_hz = twin.highest_hz};
 }

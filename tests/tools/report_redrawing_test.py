@@ -87,8 +87,8 @@ class Redrawing(PageTestCase):
         self.report("two.html", "long arms=long arms.h5", "adaptive=adaptive.h5")
         page = self.open("two.html")
         options = page.evaluate("[...document.getElementById('mode-body').options].map((one) => one.textContent)")
-        self.assertIn("chassis, long arms", options)
-        self.assertIn("front_long_arm, long arms", options)
+        self.assertIn("chassis, long arms: clamped modes 1–2", options)
+        self.assertIn("front_long_arm, long arms: clamped modes 1–2", options)
         note = "document.getElementById('mode-note').textContent"
         for place, option in enumerate(options):
             with self.subTest(option):

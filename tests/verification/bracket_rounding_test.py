@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Brackets of frequencies that rounding spoils: they become wider, and hold the true ones nevertheless."""
+"""Brackets of frequencies that rounding or kinks spoil become wider, and hold the true ones nevertheless; there are
+none where forces are not conservative."""
 
 import os
 import unittest
@@ -76,7 +77,58 @@ y = {{ spring = {{ polynomial = [0.0, {rate}] }} }}
 """
 
 
+BLOCK = """
+name = "block"
+gravity = [0.0, 0.0]
+[bodies.block]
+mass = 3.0
+inertia = 0.5
+position = [0.0, 0.0]
+[[forces]]
+name = "mount"
+type = "bushing"
+a = "ground.origin"
+b = "block.origin"
+x = {{ spring = {{ polynomial = [0.0, 2000.0] }} }}
+y = {{ spring = {law} }}
+rotation = {{ spring = {{ polynomial = [0.0, 900.0] }} }}
+"""
+FOLLOWING = """
+[[forces]]
+name = "thrust"
+type = "applied"
+point = "block.origin"
+axes = "following"
+force = [40.0, 0.0]
+"""
+
+
 class Brackets(VerificationCase):
+    def find_bracket(self, vehicle):
+        """Of the lowest mode, heave."""
+        found = self.program("modes", self.write_model(vehicle, "duration = 1.0\n"), "--bracket")
+        return found["modes"][0]["bracket"]
+
+    def test_a_kink_beside_the_equilibrium_widens_them(self):
+        # 1 N/mm where it rests and 2 N/mm beyond a kink: sqrt(1000/3)/2π. Far from the kink the bracket is narrow.
+        truth = np.sqrt(1000.0 / 3.0) / (2.0 * np.pi)
+        for distance in 10.0 ** np.arange(-6.0, -0.99, 0.25):
+            table = [[-1.0, -1000.0], [0.0, 0.0], [distance, 1000.0 * distance], [1.0, 2000.0 - 1000.0 * distance]]
+            with self.subTest(distance=distance):
+                lower, upper = self.find_bracket(BLOCK.format(law="{ table = %s }" % table))
+                self.assertLessEqual(lower, (1.0 + ROUNDING) * truth)
+                self.assertGreaterEqual(upper, (1.0 - ROUNDING) * truth)
+                if distance > 1e-2:
+                    self.assertLess(upper - lower, 1e-6 * truth)
+
+    def test_a_force_that_follows_a_body_has_none(self):
+        law = "{ polynomial = [0.0, 1000.0] }"
+        self.find_bracket(BLOCK.format(law=law))
+        run = self.write_model(BLOCK.format(law=law) + FOLLOWING, "duration = 1.0\n")
+        process = run_program([os.environ["SPRUNG_DYNAMICS"], "modes", run, "--bracket"], cwd=self.folder)
+        self.assertEqual(process.returncode, 3)
+        self.assertIn("the stiffness at rest is not symmetric, as with forces that follow a body", process.stderr)
+
     def test_rounding_beside_a_soft_reference_widens_them(self):
         # A beam of 4 m on three stiff springs, with a thin rod on it whose tip is the reference node: the vehicle's
         # stiffness is then a small difference of large terms. Expected: the frame's full matrices with the springs
