@@ -66,7 +66,7 @@ class ForceChannels(ToolTestCase):
         }  # fmt: skip
         every = np.ones(self.results.time.size, dtype=bool)
         for force, values in expected.items():
-            rows = {name: value for _, name, _, value in calc_force_rows(self.results, force, every)}
+            rows = {row.name: row.value for row in calc_force_rows(self.results, force, every)}
             self.assertEqual(set(rows), {f"{name}, largest" for name in values})
             for name, value in values.items():
                 self.assertAlmostEqual(rows[f"{name}, largest"], value, places=9)
