@@ -113,7 +113,9 @@ class Templates(ToolTestCase):
                     if "bracket" in mode:
                         lower, upper = mode["bracket"]
                         # The bracket is about the equilibrium of the true vehicle, the frequency about the model's.
-                        self.assertTrue(abs(upper / frequency - 1.0) < 1e-4, mode)
+                        # They are the same but for rounding where force elements are linear or no body is flexible.
+                        differs = 3e-5 if "semitrailer" in name else 1e-6
+                        self.assertLess(abs(upper / frequency - 1.0), differs, mode)
                         self.assertTrue(0.99 * upper < lower < (1.0 + 1e-9) * upper, mode)
 
     def find_modes(self, name, superelements):
