@@ -25,7 +25,9 @@ const reduce::Certificate& require_bound(const BodyDescription& description, con
     return one.is_bounded() && (one.cutoff_hz == 0.0 || one.cutoff_hz > one.highest_hz);
   };
   if (!superelement.certificate || !has_bound(*superelement.certificate))
-    refuse_bracket(description, "the certificate of its superelement has no bound; take the basis \"free\"");
+    refuse_bracket(description,
+                   "the certificate of its superelement has no bound up to the end of its band; take "
+                   "the basis \"free\", or a lower highest_frequency, in the design");
   if (body.num_modes() != superelement.num_modes()) {
     refuse_bracket(description, fmt::format("it has {} of {} modes; set modes.{} = \"certified\"",
                                             body.num_modes(), superelement.num_modes(), body.name));

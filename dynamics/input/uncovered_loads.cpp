@@ -79,7 +79,7 @@ std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Mode
     const bool holds_all = certificate.cutoff_hz == 0.0;
     if (holds_all || !certificate.is_bounded() || !named.insert(load.body).second) continue;
     remarks.push_back(fmt::format(
-        "{}: {}: the basis was not made for them, and its certified error does not hold; name the "
+        "{}: {}: the basis was not made for them, and its certified error says nothing of them; name the "
         "point under [interface] in the design",
         support::format_place(body.location), load.describe()));
   }

@@ -96,12 +96,11 @@ namespace {
 // Adds the stiffness, and the rounding of stiffness and force, to a system that is complete otherwise.
 // @param equations  evaluated at rest at q_i
 void add_stiffness(PartitionedEquations& equations, double time, const Eigen::VectorXd& q_i,
-                   const SteadyMotion& motion, LinearisedSystem& system) {
+                   const SteadyMotion& motion, LinearisedSystem& system, Eigen::MatrixXd* spread) {
   const Model& model = equations.terms().model();
   const Eigen::VectorXd q = equations.q(), forces = equations.terms().forces();
   const Eigen::Index f = q_i.size(), n = model.num_coordinates;
   // The reduced force, followed by the forces themselves, whose sizes give its rounding.
-  Eigen::MatrixXd spread;
   const Eigen::MatrixXd derivative = differentiate_by_position(
       equations, time, q_i,
       [&](const PartitionedEquations& at, auto) {
@@ -110,13 +109,13 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
         values << calc_relative_force(at, without_modal, motion), without_modal;
         return values;
       },
-      motion, needed_by(motion), &spread);
+      motion, needed_by(motion), spread);
   const Eigen::MatrixXd& D = system.directions;
   system.stiffness = D.transpose() * apply_modal_stiffness(model, D) - derivative.topRows(f);
   // Internal states are rates: neither they nor forces depend on the coordinates that belong to them.
   system.stiffness.bottomRows(model.num_states()).setZero();
   system.stiffness.rightCols(model.num_states()).setZero();
-  system.stiffness_spread = spread.topRows(f);
+  if (spread) spread->conservativeResize(f, f);  // of the reduced force
 
   const Eigen::MatrixXd sizes = D.cwiseAbs();
   // Rounding errors of the dependent rows of D grow as the smallest pivot that they were solved with falls.
@@ -140,7 +139,7 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
 }  // namespace
 
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
-                           const SteadyMotion& motion) {
+                           const SteadyMotion& motion, Eigen::MatrixXd* spread) {
   equations.choose_partition_at(time, q);
   LinearisedSystem system;
   system.partition = equations.partition();
@@ -162,7 +161,7 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
       },
       motion, needed_by(motion));
   calc_static_force(equations, time, q_i, nullptr, motion);
-  add_stiffness(equations, time, q_i, motion, system);
+  add_stiffness(equations, time, q_i, motion, system, spread);
   calc_static_force(equations, time, q_i, nullptr, motion);
   return system;
 }

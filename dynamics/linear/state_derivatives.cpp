@@ -88,16 +88,16 @@ Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, doubl
   if (spread && q_independent.size() > 0) middle = value_at(0, 0.0);
   for (Eigen::Index k = 0; k < q_independent.size(); ++k) {
     const double h = kPositionStep * scale_of(equations, k);
-    const Eigen::VectorXd far = value_at(k, 2.0 * h), far_back = value_at(k, -2.0 * h), near = value_at(k, h),
-                          near_back = value_at(k, -h);
+    const Eigen::VectorXd far = value_at(k, 2.0 * h), far_back = value_at(k, -2.0 * h);
+    const Eigen::VectorXd near = value_at(k, h), near_back = value_at(k, -h);
     const Eigen::VectorXd wide = (far - far_back) / (4.0 * h), narrow = (near - near_back) / (2.0 * h);
     if (k == 0) derivative.resize(wide.size(), q_independent.size());
     derivative.col(k) = (4.0 * narrow - wide) / 3.0;
     if (!spread) continue;
     if (k == 0) spread->resize(wide.size(), q_independent.size());
-    const Eigen::VectorXd wide_change = (far + far_back - 2.0 * middle) / (2.0 * h),
-                          narrow_change = (near + near_back - 2.0 * middle) / h;
-    spread->col(k) = (narrow - wide).cwiseAbs() + (wide_change - 2.0 * narrow_change).cwiseAbs();
+    const Eigen::VectorXd narrower = (value_at(k, 0.5 * h) - value_at(k, -0.5 * h)) / h;
+    spread->col(k) = (derivative.col(k) - (4.0 * narrower - narrow) / 3.0).cwiseAbs() +
+                     (far + far_back - 4.0 * (near + near_back) + 6.0 * middle).cwiseAbs() / (2.0 * h);
   }
   return derivative;
 }

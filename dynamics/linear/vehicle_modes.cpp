@@ -239,13 +239,14 @@ FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd&
                                       const std::vector<Eigen::MatrixXd>& masses) {
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, q);
-  LinearisedSystem system = linearise(equations, 0.0, q);
+  Eigen::MatrixXd spread;
+  LinearisedSystem system = linearise(equations, 0.0, q, {}, &spread);
   const Eigen::MatrixXd& D = system.directions;
   if (stiffness.size() > 0) system.stiffness += D.transpose() * stiffness.asDiagonal() * D;
   // Internal states, the last coordinates, have no stiffness and are no modes.
   const Eigen::Index n = system.mass.rows() - model.num_states();
   const Eigen::MatrixXd own_stiffness = system.stiffness.topLeftCorner(n, n);
-  const Eigen::MatrixXd unknown = (system.stiffness_rounding + system.stiffness_spread).topLeftCorner(n, n);
+  const Eigen::MatrixXd unknown = (system.stiffness_rounding + spread).topLeftCorner(n, n);
   require_symmetric(own_stiffness, unknown);
   const auto sort_frequencies = [](Eigen::VectorXd omega_squared) -> Eigen::VectorXd {
     std::sort(omega_squared.begin(), omega_squared.end());

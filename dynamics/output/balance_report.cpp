@@ -1,6 +1,7 @@
 #include "dynamics/output/balance_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <utility>
@@ -164,14 +165,15 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
   return text + format_warnings(warnings);
 }
 
-bool FrequencyBracket::holds(const std::vector<VehicleMode>& modes, std::size_t mode) const {
-  return !modes[mode].is_rigid_body && modes[mode].undamped_frequency_hz < highest_hz;
+bool FrequencyBracket::may_be_in_band(const std::vector<VehicleMode>& modes, std::size_t mode) const {
+  return !modes[mode].is_rigid_body && lower_hz[static_cast<Eigen::Index>(mode)] < highest_hz;
 }
 
-std::string format_bracket(const std::vector<VehicleMode>& modes, const FrequencyBracket& bracket) {
+std::string format_bracket(const Vehicle& vehicle, const Model& model, const std::vector<VehicleMode>& modes,
+                           const FrequencyBracket& bracket) {
   support::TextTable table({"mode", "at least Hz", "at most Hz", "width"});
   for (std::size_t k = 0; k < modes.size(); ++k) {
-    if (!bracket.holds(modes, k)) continue;
+    if (!bracket.may_be_in_band(modes, k)) continue;
     const double lower = bracket.lower_hz[static_cast<Eigen::Index>(k)],
                  upper = bracket.upper_hz[static_cast<Eigen::Index>(k)];
     table.add_row({fmt::format("{}", k + 1), fmt::format("{:.6f}", lower), fmt::format("{:.6f}", upper),
@@ -179,11 +181,14 @@ std::string format_bracket(const std::vector<VehicleMode>& modes, const Frequenc
   }
   const std::string band =
       std::isfinite(bracket.highest_hz) ? fmt::format(" up to {:.6g} Hz", bracket.highest_hz) : "";
+  std::vector<std::string> rigid;
+  for (std::size_t b = 0; b < vehicle.bodies.size(); ++b)
+    if (vehicle.superelement_of(vehicle.bodies[b]) && model.bodies[b].num_modes() == 0)
+      rigid.push_back(vehicle.bodies[b].name);
   return fmt::format(
       "\nBrackets of the undamped frequencies{}, of the vehicle with all motions of the bodies that have "
-      "modes "
-      "here, linearised about its equilibrium, with the body frames at their reference nodes\n{}",
-      band, table.str());
+      "modes here{}, linearised about its equilibrium, with the body frames at their reference nodes\n{}",
+      band, rigid.empty() ? "" : fmt::format(" ({} rigid)", fmt::join(rigid, ", ")), table.str());
 }
 
 Json make_modes_json(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
@@ -195,7 +200,7 @@ Json make_modes_json(const Model& model, const Vehicle& vehicle, const std::vect
                     {"damping_ratio", mode.damping_ratio},
                     {"rigid_body", mode.is_rigid_body},
                     {"participants", describe_moving_bodies(model, vehicle, mode)}});
-    if (bracket != nullptr && bracket->holds(modes, list.size() - 1)) {
+    if (bracket != nullptr && bracket->may_be_in_band(modes, list.size() - 1)) {
       const auto k = static_cast<Eigen::Index>(list.size()) - 1;
       list.back()["bracket"] = {bracket->lower_hz[k], bracket->upper_hz[k]};
     }

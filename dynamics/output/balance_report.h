@@ -34,8 +34,8 @@ std::vector<RunWarning> list_balance_warnings(const Vehicle& vehicle, const Rest
 struct FrequencyBracket {
   Eigen::VectorXd lower_hz, upper_hz;  ///< of mode 1, 2, …, rigid-body modes among them
   double highest_hz = 0.0;             ///< up to which the bounds hold
-  /// Whether the bounds of a mode hold. @param mode  0-based
-  bool holds(const std::vector<VehicleMode>& modes, std::size_t mode) const;
+  /// Whether the true frequency of a mode may be one for which the bounds hold. @param mode  0-based
+  bool may_be_in_band(const std::vector<VehicleMode>& modes, std::size_t mode) const;
 };
 
 /// Positions of the bodies, values of the force elements, bending moments and neutral directions, as text
@@ -52,6 +52,7 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
 support::Json make_modes_json(const Model& model, const Vehicle& vehicle,
                               const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
                               const FrequencyBracket* bracket = nullptr);
-std::string format_bracket(const std::vector<VehicleMode>& modes, const FrequencyBracket& bracket);
+std::string format_bracket(const Vehicle& vehicle, const Model& model, const std::vector<VehicleMode>& modes,
+                           const FrequencyBracket& bracket);
 
 }  // namespace sprung::dynamics

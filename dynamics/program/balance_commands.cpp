@@ -90,7 +90,7 @@ FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarnin
         {"modes",
          {body},
          fmt::format("{}: the brackets are not proved: its superelement, of an earlier program, does not "
-                     "tell how what the vehicle carries at rest deflects it; build it again",
+                     "say how the body deflects at rest; build it again",
                      body)});
   }
   const Eigen::VectorXd q = find_equilibrium(twin.model, insert_soft_modes(twin, prepared.equilibrium->q)).q;
@@ -151,7 +151,8 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   support::print(
       request.streams.out, "{}",
       format_modes(model, prepared.vehicle, modes, warnings, prepared.run.start == Run::Start::kSteady));
-  if (bracket) support::print(request.streams.out, "{}", format_bracket(modes, *bracket));
+  if (bracket)
+    support::print(request.streams.out, "{}", format_bracket(prepared.vehicle, model, modes, *bracket));
   return support::kGood;
 }
 

@@ -31,7 +31,7 @@ struct BasisRequest {
   std::vector<InterfaceFreedom> interface;
   Eigen::MatrixXd loads;  ///< of the interface: unit loads, balanced, n×b
   /// Loads of the soft twin by motion of the body frame, balanced: unit loads at the reference node's three
-  /// freedoms, and M (x, y, 0), n×4
+  /// freedoms, and ∫(x N_x + y N_y) dm (fem/mass_moments.h), n×4
   Eigen::MatrixXd frame_loads;
   double highest_hz = 0.0;             ///< the end of the band
   double tolerance = 0.01;             ///< share of the static flexibility that may be missing

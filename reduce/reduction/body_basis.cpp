@@ -105,7 +105,7 @@ BasisRequest make_request(const Design& design, const BodyMatrices& matrices, do
   request.loads = balance_loads(
       matrices.rigid,
       fem::move_loads_to_leaders(design.model.couplings, make_interface_loads(num_nodes, request.interface)));
-  request.frame_loads = make_frame_loads(matrices, design.reference_node);
+  request.frame_loads = make_frame_loads(design, matrices.rigid);
   return request;
 }
 
@@ -198,16 +198,15 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
 
 }  // namespace
 
-Eigen::MatrixXd make_frame_loads(const BodyMatrices& matrices, int reference_node) {
-  const Eigen::Index size = matrices.full.mass.rows();
+Eigen::MatrixXd make_frame_loads(const Design& design, const RigidMotions& rigid) {
+  const fem::MassMoments moments =
+      make_mass_moments(design, design.model.mesh.node_positions.col(design.reference_node));
   std::vector<InterfaceFreedom> reference;
-  for (const int freedom : {0, 1, 2}) reference.push_back({.node = reference_node, .freedom = freedom});
-  Eigen::VectorXd radial = Eigen::VectorXd::Zero(size);
-  for (Eigen::Index i = 0; i < matrices.node_positions.cols(); ++i)
-    radial.segment<2>(3 * i) = matrices.node_positions.col(i);
-  Eigen::MatrixXd loads(size, 4);
-  loads << make_interface_loads(static_cast<int>(size / 3), reference), matrices.full.mass * radial;
-  return balance_loads(matrices.rigid, loads);
+  for (const int freedom : {0, 1, 2})
+    reference.push_back({.node = design.reference_node, .freedom = freedom});
+  Eigen::MatrixXd loads(moments.x_N_x.size(), 4);
+  loads << make_interface_loads(static_cast<int>(loads.rows() / 3), reference), moments.x_N_x + moments.y_N_y;
+  return balance_loads(rigid, loads);
 }
 
 Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors) {

@@ -32,7 +32,7 @@ fem::AssembledMatrices make_full_matrices(const Design& design);
 BodyMatrices make_body_matrices(const Design& design);
 
 /// The loads of the soft twin by motion of the body frame (BasisRequest::frame_loads). @return n×4
-Eigen::MatrixXd make_frame_loads(const BodyMatrices& matrices, int reference_node);
+Eigen::MatrixXd make_frame_loads(const Design& design, const RigidMotions& rigid);
 
 /// Displacements of all nodes, from vectors of the held frame. @param vectors  (3N−3)×n   @return 3N×n
 Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors);

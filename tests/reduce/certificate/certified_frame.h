@@ -41,7 +41,7 @@ struct CertifiedFrame {
 
   CertificateRequest make_request() const {
     return {.interface = design.reduction.interface,
-            .frame_loads = make_frame_loads(matrices, design.reference_node),
+            .frame_loads = make_frame_loads(design, matrices.rigid),
             .highest_hz = *design.reduction.highest_hz,
             .free_modes = modes.pairs,
             .next_omega_squared = modes.next_omega_squared,

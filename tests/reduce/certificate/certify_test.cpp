@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "reduce/certificate/band_errors.h"
+#include "reduce/reduction/inertia_invariants.h"
 #include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
 #include "tests/reduce/certificate/certified_frame.h"
@@ -185,12 +186,9 @@ double calc_missed_radial(const SoftBody& soft, const testing::FreeBodyTruth& tr
   const double all = shares.tail(elastic).cwiseAbs2().dot(truth.omega_squared().tail(elastic).cwiseInverse());
 
   const InertiaInvariants& inertia = soft.body.inertia;
-  const double m = inertia.mass, x = inertia.first_moment.x(), y = inertia.first_moment.y();
-  Eigen::Matrix3d rigid;
-  rigid << m, 0.0, -y, 0.0, m, x, -y, x, inertia.second_moment;
-  Eigen::MatrixXd momenta(3, soft.body.num_modes());
-  momenta << inertia.P, inertia.c;
-  const Eigen::MatrixXd frame = (rigid.inverse() * momenta).topRows(2);
+  const Eigen::MatrixXd mass = calc_mass_matrix(inertia);
+  const Eigen::MatrixXd momenta = mass.topRightCorner(3, soft.body.num_modes());
+  const Eigen::MatrixXd frame = (mass.topLeftCorner<3, 3>().inverse() * momenta).topRows(2);
   const Eigen::VectorXd kept = (inertia.d - inertia.first_moment.transpose() * frame).transpose();
   return all - kept.dot(soft.body.stiffness.partialPivLu().solve(kept));
 }
