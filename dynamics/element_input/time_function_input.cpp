@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "dynamics/element_input/input_values.h"
@@ -198,11 +200,28 @@ TimeFunction read_function(const support::TomlValue& value, std::string_view uni
   return read_polynomial(content, unit);
 }
 
+// The integrators join breaks that lie closer than this, which rounding of one time may have parted.
+void check_lengths(const support::TomlValue& value, const TimeFunction& f) {
+  constexpr double kShortest = 1e-9;  // s
+  constexpr double kRounding = 1e-14;
+  const std::span<const double> breaks = f.breaks();
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double length = breaks[i] - breaks[i - 1];
+    if (length >= kShortest || length <= kRounding * std::abs(breaks[i])) continue;
+    throw value.error(
+        fmt::format("changes at {:.15g} s and again {:.3g} s later, expected at least {:g} s between "
+                    "changes; give a shorter "
+                    "pulse as a longer one of the same area",
+                    breaks[i - 1], length, kShortest));
+  }
+}
+
 }  // namespace
 
 TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use,
                                 HistoryFiles& histories) {
   TimeFunction f = read_function(value, unit, {use, histories, unit});
+  check_lengths(value, f);
   if (use == TimeFunctionUse::kForce) return f;
   const std::optional<TimeFunction::Jump> jump = f.find_jump();
   if (!jump) return f;

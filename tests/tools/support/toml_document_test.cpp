@@ -131,6 +131,23 @@ TEST_CASE("a text that is not TOML is refused at the fault") {
                      "error: 1e400 is too large for double precision, whose largest number is 1.8e+308"));
 }
 
+// Each part would take some of the stack.
+TEST_CASE("keys of many parts are refused, and what only has many points is none") {
+  const auto repeat = [](const std::string& part, int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += part;
+    return text;
+  };
+  const std::string expected = "error: a key of more than 256 parts";
+  CHECK(parse_error("x = 1\n  " + repeat("a.", 20000) + "b = 1\n") == "v.toml:2:3: " + expected);
+  CHECK(parse_error("[" + repeat("\"a.a\" . ", 300) + "b]\n") == "v.toml:1:2: " + expected);
+  CHECK(parse_error("x = {" + repeat("'a'.", 256) + "b = 1}\n") == "v.toml:1:6: " + expected);
+  CHECK_NOTHROW(TomlDocument::parse(repeat("a.", 255) + "b = 1\n", "v.toml"));
+  CHECK_NOTHROW(TomlDocument::parse(
+      "# " + repeat(".", 999) + "\nx = [" + repeat("1.5, ", 999) + "2]\ny = \"" + repeat(".", 999) + "\"\n",
+      "v.toml"));
+}
+
 TEST_CASE("dates and times are refused") {
   CHECK(parse_error("[run]\nstart = 1983-06-01\n") ==
         "v.toml:2:9: error: 'run.start' is a date or time, which no key takes");

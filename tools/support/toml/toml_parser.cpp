@@ -101,6 +101,16 @@ class Converter {
 }  // namespace
 
 TomlNode parse_toml(std::string_view text, const std::string& name) {
+  // The library takes a level of the stack for each part, without a limit.
+  constexpr std::size_t kMostParts = 256;
+  if (const std::size_t begin = find_deep_key(text, kMostParts); begin != std::string_view::npos) {
+    const std::string_view before = text.substr(0, begin);
+    const std::size_t line_begin = before.rfind('\n') + 1;
+    throw InputError({.path = name,
+                      .line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+                      .column = 1 + static_cast<int>(begin - line_begin)},
+                     fmt::format("a key of more than {} parts", kMostParts));
+  }
   try {
     const toml::table table = toml::parse(text, name);
     TomlNode root = Converter(name).convert(table, "", {.path = name});

@@ -79,4 +79,31 @@ std::string describe_unreadable_number(std::string_view text) {
                      value);
 }
 
+std::size_t find_deep_key(std::string_view text, std::size_t most) {
+  std::size_t dots = 0, begin = 0;
+  bool is_in_key = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool is_quote = c == '"' || c == '\'';
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (is_quote) {
+      if (!is_in_key) begin = i;
+      const std::size_t end = text.find(c, i + 1);
+      if (end == std::string_view::npos) return end;
+      i = end;
+    }
+    if (is_quote || is_bare_key_character(c) || c == '.') {
+      if (!is_in_key && !is_quote) begin = i;
+      is_in_key = true;
+      dots += c == '.' ? 1 : 0;
+      if (dots >= most) return begin;
+    } else if (c != ' ' && c != '\t') {
+      is_in_key = false;
+      dots = 0;
+    }
+  }
+  return std::string_view::npos;
+}
+
 }  // namespace sprung::support

@@ -22,4 +22,8 @@ std::string format_number(double value);
 /// and exponent, beyond 64 bits. "" for all other text.
 std::string describe_unreadable_number(std::string_view text);
 
+/// Where a key of more than `most` parts begins, as its offset: `a.b.c` has three. None is npos. Comments and
+/// strings are passed over, but for strings of several lines that contain quotes.
+std::size_t find_deep_key(std::string_view text, std::size_t most);
+
 }  // namespace sprung::support
