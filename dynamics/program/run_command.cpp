@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
 #include "dynamics/input/road_input.h"
 #include "dynamics/linear/vehicle_modes.h"
@@ -108,6 +110,11 @@ void warn_of_other_speed(const PreparedRun& prepared, std::vector<RunWarning>& w
              "do not allow: the run begins with a jolt; give both the same speed",
              wheel.name, wheel.speed, run.speed)});
   }
+}
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code missing;
+  return std::filesystem::equivalent(a, b, missing) && !missing;
 }
 
 // CPU time of the program so far [s].
@@ -237,6 +244,13 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     throw support::InputError({.path = "--resume"}, "needs -o, the name of the results");
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   const Run& run = prepared.run;
+  if (!run.continue_from.empty() && is_same_file(run.continue_from, output.results)) {
+    throw support::InputError(
+        run.continue_location,
+        fmt::format("{} is also the name of the results, which would replace it; name others "
+                    "with -o",
+                    run.continue_from.string()));
+  }
   if (!output.json && !request.quiet && !output.dry_run) print_description(streams.out, prepared);
   std::vector<RunWarning> model_warnings =
       list_model_warnings(prepared.model, prepared.assembly, prepared.start,

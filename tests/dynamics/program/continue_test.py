@@ -121,6 +121,9 @@ class Continue(DynamicsTestCase):
             "'continue_from'", "and 'initial' exclude each other",
         )  # fmt: skip
         self.assert_refused(self.run_until(0.8, "b.h5", "--set", 'continue_from="none.h5"'), "none.h5", "no such file")
+        before = self.files()
+        self.assert_refused(self.run_until(0.8, "./first.h5", *FROM_FIRST), "is also the name of the results")
+        self.assertEqual(self.files(), before)
         self.assert_refused(self.run_until(0.8, "b.h5", "--set", 'continue_from="chassis.h5"'), "is no results file")
         with h5py.File(self.folder / "first.h5", "r+") as file:
             file["last_state/coordinates"][1] += 0.01
