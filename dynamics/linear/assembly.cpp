@@ -138,6 +138,21 @@ void find_widest_gap(const Model& model, const Eigen::VectorXd& phi, AssemblyRep
   }
 }
 
+// The prescribed motion whose coordinate is farthest from its value as drawn.
+void find_widest_motion_gap(const Model& model, const Eigen::VectorXd& phi, AssemblyReport& report) {
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const Joint& joint = *model.joints[j];
+    if (!joint.is_motion()) continue;
+    const double gap = phi[model.joint_rows[j]];
+    const std::string unit(joint.constraint_unit(0));
+    const double natural = std::abs(gap) / (unit == "m" ? model.length_scale : 1.0);
+    if (natural <= report.motion_gap) continue;
+    report.motion_gap = natural;
+    report.open_motion = fmt::format("'{}' begins {:.3g} {} {}", joint.name, std::abs(gap), unit,
+                                     gap > 0.0 ? "below" : "above");
+  }
+}
+
 }  // namespace
 
 AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
@@ -152,6 +167,7 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   terms.calc_residual(phi);
   AssemblyReport report;
   find_widest_gap(model, phi, report);
+  find_widest_motion_gap(model, phi, report);
   double size = model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
   for (int iteration = 0; size > std::max(kClosingTolerance * model.length_scale, model.calc_rounding(q));
        ++iteration) {

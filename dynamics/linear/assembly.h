@@ -13,6 +13,8 @@ struct AssemblyReport {
   double residual = 0.0;          ///< largest |φ| afterwards
   double widest_gap = 0.0;        ///< of a joint before, a distance [m]
   std::string open_joint;         ///< which joint
+  double motion_gap = 0.0;  ///< of the prescribed motion that begins farthest from the drawing [natural size]
+  std::string open_motion;  ///< which one, and how far: "'cruise' begins 1.6 m below"
 };
 
 /// Moves the bodies from the positions of the input file so that every joint closes, with the least movement

@@ -17,6 +17,7 @@ constexpr double kTellable = 1e-3;           // share of a single mode
 constexpr double kTooMuchLeftOut = 0.05;     // share of the largest deflection or acceleration
 constexpr double kAlarmingClosure = 1e-3;    // far above the closure at any useful tolerance
 constexpr double kClosed = 1e-6;             // gap of a joint, of the largest movement
+constexpr double kFarMotion = 0.02;          // natural sizes of its coordinate
 constexpr double kSmallestScale = 1e-4;      // m: a hundred thousand times the dead band of switches
 constexpr double kTooRough = 0.4;            // SampleDensity::roughness: about five samples per period
 constexpr double kMissedPeak = 0.1;          // SampleDensity::missed
@@ -42,6 +43,13 @@ std::vector<std::string> list_points_of(const std::string& body, const RunStatis
     if (body_of_point(point.point) == body) points.push_back(point.point);
   }
   return points;
+}
+
+// A body's rows in the summary: those of its points, and those of its section loads.
+std::vector<std::string> list_rows_of(const std::string& body, const RunStatistics& statistics) {
+  std::vector<std::string> rows = list_points_of(body, statistics);
+  rows.push_back(body);
+  return rows;
 }
 
 // Of single modes by the forces on them: nothing where all do little by themselves, as where only their start
@@ -76,7 +84,7 @@ std::string describe_missing(const MissingAcceleration& missing, const Adaptivit
 void add_remarks(const std::vector<BodyRemark>& remarks, const RunStatistics& statistics,
                  std::vector<RunWarning>& warnings) {
   for (const BodyRemark& remark : remarks)
-    warnings.push_back({kSummary, list_points_of(remark.body, statistics), remark.text});
+    warnings.push_back({kSummary, list_rows_of(remark.body, statistics), remark.text});
 }
 
 void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
@@ -220,7 +228,14 @@ std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyRe
   const auto warn = [&](std::string text) {
     warnings.push_back({kSummary, {std::string(kComputation)}, std::move(text)});
   };
-  if (std::string moved = describe_far_movement(model, assembly); !moved.empty()) warn(std::move(moved));
+  if (std::string moved = describe_far_movement(model, assembly); !moved.empty()) {
+    warn(std::move(moved));
+  } else if (assembly.motion_gap > kFarMotion) {
+    warn(fmt::format(
+        "the prescribed motion {} its value in the drawing, so that bodies were moved and turned to "
+        "meet it, and what is \"as-drawn\" is as it is there; begin its function at the drawn value",
+        assembly.open_motion));
+  }
   if (equilibrium && !equilibrium->stable && start.q == equilibrium->q) {
     warn(
         "the run starts in an unstable equilibrium: without a disturbance it stays there, and any "

@@ -1,0 +1,86 @@
+#!/usr/bin/python3
+"""Warnings of what joints and prescribed motions make of the drawing at the start."""
+
+import json
+import unittest
+
+from dynamics_test_case import DynamicsTestCase
+
+# A carriage that a motion drives at 5 m/s, with a wheel under it.
+CARRIAGE = """
+name = "carriage"
+[ground.points]
+rail = [0.0, 1.0]
+[bodies.carriage]
+mass = 300.0
+inertia = 100.0
+position = [0.0, 1.0]
+[bodies.wheel]
+mass = 40.0
+inertia = 1.0
+position = [0.0, 0.3]
+[[joints]]
+name = "rail"
+type = "translational"
+a = "ground.rail"
+b = "carriage.origin"
+axis = [1.0, 0.0]
+[[joints]]
+name = "guide"
+type = "translational"
+a = "carriage.origin"
+b = "wheel.origin"
+axis = [0.0, 1.0]
+[[motions]]
+name = "drive"
+joint = "rail"
+function = { polynomial = [0.0, 5.0] }
+[[forces]]
+name = "tyre"
+type = "tyre"
+wheel = "wheel.origin"
+radius = 0.32
+spring = { polynomial = [0.0, 2e5] }
+"""
+
+
+class AssemblyWarnings(DynamicsTestCase):
+    def write_carriage(self, x=0.0, wheel=0.0):
+        """@param x: where the carriage is drawn; its motion begins at 0   @param wheel: where its wheel is, from there"""
+        vehicle = CARRIAGE.replace("[0.0, 1.0]\n[bodies.wheel]", f"[{x}, 1.0]\n[bodies.wheel]")
+        vehicle = vehicle.replace("position = [0.0, 0.3]", f"position = [{x + wheel}, 0.3]")
+        (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
+        (self.folder / "bump.toml").write_text('vehicle = "vehicle.toml"\nduration = 0.01\n', encoding="utf-8")
+
+    def test_a_speed_that_prescribed_motion_does_not_allow(self):
+        self.write_carriage()
+        for speed, told in ((5.0, False), (8.0, True)):
+            process = self.run_program("--set", f"speed={speed}", "-o", "x.h5")
+            self.assertEqual(process.returncode, 0, process.stderr)
+            words = f"starts at 5 m/s and not at 'speed', {speed:g} m/s, which prescribed motion or joints"
+            self.assertEqual(words in process.stderr, told, process.stderr)
+
+    def test_a_motion_that_begins_away_from_the_drawing(self):
+        for x, told in ((0.0, ""), (-0.004, ""), (-0.3, "begins 0.3 m above"), (0.3, "begins 0.3 m below")):
+            self.write_carriage(x)
+            for verb in ("run", "modes", "equilibrium"):
+                with self.subTest(x=x, verb=verb):
+                    process = self.run_program("--json", "--quiet", verb=verb)
+                    self.assertEqual(process.returncode, 0, process.stderr)
+                    texts = [one["text"] for one in json.loads(process.stdout)["warnings"]]
+                    found = [text for text in texts if "prescribed motion 'drive' begins" in text]
+                    self.assertEqual(len(found), bool(told), texts)
+                    self.assertTrue(all(told in text for text in found), found)
+
+    def test_a_body_that_joints_move_far_is_told_of_in_the_balance_too(self):
+        self.write_carriage(wheel=8.0)
+        for verb in ("equilibrium", "modes"):
+            process = self.run_program("--json", verb=verb)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            (text,) = (one["text"] for one in json.loads(process.stdout)["warnings"])
+            self.assertRegex(text, r"to close the joints, of which 'guide' was 8 m open")
+            self.assertIn(f"warning: {text}", process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
