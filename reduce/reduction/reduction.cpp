@@ -115,6 +115,8 @@ void add_inertia_and_loads(const Design& design, const BodyMatrices& matrices, c
 
 // Whether a check is of what the reference node holds, and rounding spoils that.
 bool is_spoilt_by_reference(const CheckResult& failed, const BodyMatrices& matrices) {
+  if (failed.name == kMassConditionCheck)
+    return true;  // nearly all of the body moves rigidly against the node
   const bool is_of_hold =
       failed.name == kResidualCheck || failed.name == kPointLoadCheck || failed.name == kHeldRoundingCheck;
   return is_of_hold && estimate_held_rounding(matrices).is_of_soft_reference();
@@ -125,24 +127,19 @@ void require_checks(const std::vector<CheckResult>& checks, const Design& design
   for (const CheckResult& check : checks) {
     if (check.passed()) continue;
     if (is_spoilt_by_reference(check, matrices)) {
-      throw NumericalError(fmt::format("{} ({}: {:.3g}, tolerance {:.3g})",
-                                       describe_soft_reference(design, matrices), check.name, check.value,
-                                       check.tolerance));
-    }
-    if (check.name == kMassConditionCheck) {
-      throw NumericalError(fmt::format(
-          "the reference node is held too softly: in some mode nearly all of the body moves rigidly "
-          "against it (condition of the mass matrix of frame and modes {:.3g}, tolerance {:.3g}); take a "
-          "reference node that is stiffer or has more mass about it{}",
-          check.value, check.tolerance,
-          design.reduction.basis == BasisKind::kFree ? "" : ", or the basis \"free\""));
+      throw NumericalError(
+          fmt::format("{}{} ({}: {:.3g}, tolerance {:.3g})", describe_soft_reference(design, matrices),
+                      design.reduction.basis == BasisKind::kFree ? "" : "; or try the basis \"free\"",
+                      check.name, check.value, check.tolerance));
     }
     throw NumericalError(fmt::format(
         "the check '{}' of the reduced body failed: {:.3g}, tolerance {:.3g}; {}", check.name, check.value,
         check.tolerance,
-        design.matrices ? "the matrices are not exactly those of a body: masses that act along one axis "
-                          "more than along the other, and numbers that were cut short, are usual causes"
-                        : "refine the mesh less or ask for fewer modes"));
+        design.matrices
+            ? "the matrices are not exactly those of a body: masses that act along one axis "
+              "more than along the other, and numbers that were cut short, are usual causes"
+            : "stiffnesses or masses differ so much that rounding spoils it: refine the mesh less, or make "
+              "what is soft stiffer, or rigid, or a body of its own"));
   }
 }
 

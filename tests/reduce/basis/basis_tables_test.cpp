@@ -47,7 +47,8 @@ Superelement reduce_by(Design design, const Line& line) {
 }
 
 std::string format_percent(double share) {
-  return share >= kUnbounded ? "none" : fmt::format("{:.2g}", 100.0 * share);
+  if (share >= kUnbounded) return "no bound";
+  return share >= 0.995 ? fmt::format("{:.0f}", 100.0 * share) : fmt::format("{:.2g}", 100.0 * share);
 }
 
 double largest_at_rest(const Certificate& certificate) {
