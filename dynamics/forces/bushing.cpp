@@ -30,6 +30,14 @@ Bushing::Bushing(std::string element_name, Parameters parameters)
   }
 }
 
+// The axes turn with a, which bears the torque of the forces; b bears that of the third law alone.
+std::vector<int> Bushing::turned_markers() const {
+  const Direction& rotation = parameters_.directions[2];
+  const bool has_law =
+      !rotation.spring.is_zero() || !rotation.damper.is_zero() || rotation.relaxing_stiffness > 0.0;
+  return has_law ? markers() : std::vector<int>{parameters_.marker_a};
+}
+
 // √(N k_r): the state is this times the deflection of the spring.
 double Bushing::calc_state_factor(std::size_t k) const {
   return std::sqrt(parameters_.multiplicity * parameters_.directions[k].relaxing_stiffness);

@@ -36,6 +36,7 @@ class Bushing final : public ForceElement {
   const Parameters& parameters() const { return parameters_; }
   std::string_view kind() const override { return "bushing"; }
   std::vector<int> markers() const override { return {parameters_.marker_a, parameters_.marker_b}; }
+  std::vector<int> turned_markers() const override;
   ElementDescription describe() const override;
   Power add_wrenches(const Instant& instant, std::span<const int> branches,
                      std::span<Wrench> wrenches) const override;

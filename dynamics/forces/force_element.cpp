@@ -1,5 +1,7 @@
 #include "dynamics/forces/force_element.h"
 
+#include <algorithm>
+
 namespace sprung::dynamics {
 
 std::string_view role_name(ChannelRole role) {
@@ -30,6 +32,13 @@ std::string_view role_name(ChannelRole role) {
       return "mass-flow";
   }
   return "";
+}
+
+std::vector<int> ForceElement::turned_markers() const {
+  const std::span<const Channel> all = channels();
+  const bool has_torque = std::any_of(
+      all.begin(), all.end(), [](const Channel& channel) { return channel.role == ChannelRole::kTorque; });
+  return has_torque ? markers() : std::vector<int>();
 }
 
 }  // namespace sprung::dynamics

@@ -90,6 +90,8 @@ class ForceElement {
   virtual std::string_view kind() const = 0;
   /// The markers that the force depends on or acts on.
   virtual std::vector<int> markers() const = 0;
+  /// Those on which it may exert a torque: all, for an element that has a channel of torque.
+  virtual std::vector<int> turned_markers() const;
   /// Its points in the order of markers(), and its parameters.
   virtual ElementDescription describe() const = 0;
 

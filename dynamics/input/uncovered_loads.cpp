@@ -24,11 +24,7 @@ std::vector<bool> find_turned_markers(const Model& model) {
         true;
   }
   for (const auto& force : model.forces) {
-    const auto channels = force->channels();
-    if (std::none_of(channels.begin(), channels.end(),
-                     [](const Channel& channel) { return channel.role == ChannelRole::kTorque; }))
-      continue;
-    for (const int marker : force->markers()) turned[static_cast<std::size_t>(marker)] = true;
+    for (const int marker : force->turned_markers()) turned[static_cast<std::size_t>(marker)] = true;
   }
   return turned;
 }

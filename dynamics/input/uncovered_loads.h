@@ -26,7 +26,7 @@ std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Mo
 
 /// A remark for each body with such loads whose certificate has a bound, with the body's place. None where
 /// the basis holds all motions of the body.
-/// Checked by tests/verification/certified_test.py
+/// Checked by tests/verification/bound_of_run_test.py
 std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Model& model);
 
 }  // namespace sprung::dynamics

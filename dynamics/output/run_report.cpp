@@ -28,10 +28,11 @@ std::string describe_modes(const Model& model) {
 void add_certified_row(const CertifiedShare& share, const CertifiedError& body, support::TextTable& run) {
   if (share.point.empty()) return;
   std::string text = fmt::format(
-      "up to {:.4g} Hz {} {:.3g} % of the r.m.s. acceleration of {} along {}; {:.3g} % of it above",
-      body.highest_hz(), body.is_proved() ? "at most" : "about (not proved)", 100.0 * share.missing,
-      share.point, share.direction == 0 ? "x" : "y", 100.0 * share.above);
-  if (share.loudest_above > share.above)
+      "{}up to {:.4g} Hz {} {:.3g} % of the r.m.s. acceleration of {} along {}; {:.3g} % of it above",
+      body.is_whole() ? "" : "with all its vectors, ", body.highest_hz(),
+      body.is_proved() ? "at most" : "about (not proved)", 100.0 * share.missing, share.point,
+      share.direction == 0 ? "x" : "y", 100.0 * share.above);
+  if (!share.loudest.empty() && share.loudest != share.point)
     text += fmt::format(", {:.3g} % of that of {}", 100.0 * share.loudest_above, share.loudest);
   if (!share.uncovered.empty())
     text += fmt::format("; without loads on {} outside of the interface", share.uncovered);
@@ -63,7 +64,7 @@ Json describe_certified(const std::vector<CertifiedError>& bodies) {
   for (const CertifiedError& body : bodies) {
     const CertifiedShare share = body.find_worst();
     if (share.point.empty()) continue;
-    all[body.name()] = {{"proved", body.is_proved()},
+    all[body.name()] = {{"proved", body.is_proved() && body.is_whole()},
                         {"highest_frequency", body.highest_hz()},
                         {"point", share.point},
                         {"axis", share.direction == 0 ? "x" : "y"},

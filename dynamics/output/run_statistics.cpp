@@ -68,6 +68,8 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
     points_.push_back(
         {marker, terms.markers()[static_cast<std::size_t>(marker)].r.y(), {}, {}, {}, 0.0, 0.0});
   }
+  std::vector<int> reported;
+  for (const Point& point : points_) reported.push_back(point.marker);
   bending_ = make_body_bending(vehicle, model, sections);
   const std::vector<VehiclePoint> of_vehicle = list_points(vehicle);
   for (const BodySections& body : sections.bodies()) {
@@ -75,7 +77,7 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
     const reduce::Superelement& superelement = *vehicle.superelement_of(vehicle.bodies[body.body()]);
     const std::optional<reduce::Certificate>& certificate = superelement.certificate;
     if (!certificate || certificate->interface.empty()) continue;
-    certified_.emplace_back(model, static_cast<int>(body.body()), superelement, of_vehicle,
+    certified_.emplace_back(model, static_cast<int>(body.body()), superelement, of_vehicle, reported,
                             window.output_step);
   }
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "tools/support/dense/wide_product.h"
 
@@ -12,7 +14,8 @@ namespace {
 // Axial forces change the lowest modes of a body most; more of them would cost more than they tell.
 constexpr Eigen::Index kMostModes = 12;
 // A mode is one of axial deformation alone if axial forces change its stiffness by less than this share of
-// what they change in another one. Its strain energy, which is large in a column, says nothing about bending.
+// what they change in the middle one of the modes that they work on. Its strain energy, which is large in a
+// column, says nothing about bending.
 constexpr double kUnaffected = 1e-3;
 // Squares of deflections above the largest by less than this are the same: a body at rest stays at its first.
 constexpr double kBeyondRounding = 1.0 + 1e-12;
@@ -47,6 +50,20 @@ Eigen::MatrixXd make_geometric(const Body& body, const reduce::GeometricStiffnes
   return loads.combine(of_points, of_frame);
 }
 
+// The value where half of the weight is of lower ones.
+double find_middle(const Eigen::VectorXd& values, const Eigen::VectorXd& weights) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index i, Eigen::Index k) { return values[i] < values[k]; });
+  double weight = 0.0;
+  for (const Eigen::Index i : order) {
+    weight += weights[i];
+    if (weight >= 0.5 * weights.sum()) return values[i];
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 BodyBending::BodyBending(const Body& body, const reduce::Superelement& superelement, const BodyLoads& loads)
@@ -67,7 +84,7 @@ BodyBending::BodyBending(const Body& body, const reduce::Superelement& superelem
   geometric_ = make_geometric(body, *superelement.geometric_stiffness, loads);
   present_ = Eigen::VectorXd::Zero(geometric_.rows());
   half_ = Eigen::VectorXd::Zero(std::lround(std::sqrt(static_cast<double>(geometric_.rows()))));
-  strain_ = affected_ = half_;
+  strain_ = affected_ = worked_on_ = half_;
   stiffness_ = body.stiffness.diagonal().head(half_.size());
 }
 
@@ -87,10 +104,11 @@ void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd
   stiffening_ += eta.head(m).dot(half_);
   strain_.array() += stiffness_.array() * eta.head(m).array().square();
   affected_.array() += K_G.diagonal().array().abs() / stiffness_.array();
+  worked_on_.array() += K_G.diagonal().array().abs() * eta.head(m).array().square();
 }
 
 double BodyBending::axial_effect() const {
-  const double least = affected_.size() > 0 ? kUnaffected * affected_.maxCoeff() : 0.0;
+  const double least = kUnaffected * find_middle(affected_, worked_on_);
   const double strain = (affected_.array() >= least).select(strain_, 0.0).sum();
   return deflection_share() > kNoDeflection && strain > 0.0 ? std::abs(stiffening_) / strain : 0.0;
 }

@@ -36,6 +36,7 @@ class BodyBending {
     bytes.transfer(bending.stiffening_);
     bytes.transfer(bending.strain_);
     bytes.transfer(bending.affected_);
+    bytes.transfer(bending.worked_on_);
   }
 
  private:
@@ -53,8 +54,9 @@ class BodyBending {
   Eigen::VectorXd present_, half_;  // K_G, m²; K_G η, m
   Peak deflection_;                 // [m]
   double stiffening_ = 0.0;         // sum of ηᵀK_Gη over the outputs [J]
-  // Of each of the lowest m modes: sums of Kη² [J], and of the share of K by which axial forces change it.
-  Eigen::VectorXd strain_, affected_;
+  // Of each of the lowest m modes: sums of Kη² [J], of the share of K by which axial forces change it, and of
+  // |K_G| η² [J].
+  Eigen::VectorXd strain_, affected_, worked_on_;
 };
 
 }  // namespace sprung::dynamics

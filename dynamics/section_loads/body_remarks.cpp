@@ -8,8 +8,9 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kTooMuchMissing = 0.05;    // of the largest bending moment or deflection
+constexpr double kTooMuchAbove = 0.05;      // the band, of the r.m.s. acceleration of a point
 constexpr double kLargeDeflection = 0.1;    // over the length of the body
-constexpr double kLargeAxialEffect = 0.06;  // work of axial forces in bending over that of the stiffness
+constexpr double kLargeAxialEffect = 0.03;  // work of axial forces in bending over that of the stiffness
 
 // What a body can have besides its modes.
 std::string advise_on_basis(const BodySections& body) {
@@ -56,6 +57,15 @@ std::vector<BodyRemark> list_missed_by_bases(const std::vector<CertifiedError>& 
   std::vector<BodyRemark> remarks;
   for (const CertifiedError& body : bodies) {
     const CertifiedShare share = body.find_worst();
+    if (share.loudest_above > kTooMuchAbove) {
+      remarks.push_back(
+          {body.name(),
+           fmt::format(
+               "{}: {:.3g} % of the r.m.s. acceleration of {} is above {:.4g} Hz, where nothing is known "
+               "of what its superelement misses; reduce it up to a higher frequency, or judge only what "
+               "is below",
+               body.name(), 100.0 * share.loudest_above, share.loudest, body.highest_hz())});
+    }
     if (!(share.missing > kTooMuchMissing)) continue;
     const std::string of_point =
         fmt::format("{:.3g} % of the r.m.s. acceleration of {} along {} up to {:.4g} Hz",

@@ -28,9 +28,11 @@ int find_row(const reduce::Certificate& certificate, const reduce::Superelement&
 }  // namespace
 
 CertifiedError::CertifiedError(const Model& model, int body, const reduce::Superelement& superelement,
-                               const std::vector<VehiclePoint>& points, double output_step)
+                               const std::vector<VehiclePoint>& points, const std::vector<int>& reported,
+                               double output_step)
     : name_(model.bodies[static_cast<std::size_t>(body)].name),
       is_proved_(superelement.certificate->is_bounded()),
+      is_whole_(model.bodies[static_cast<std::size_t>(body)].num_modes() == superelement.num_modes()),
       highest_hz_(superelement.certificate->highest_hz),
       step_(output_step),
       first_(model.bodies[static_cast<std::size_t>(body)].first_coordinate) {
@@ -48,6 +50,12 @@ CertifiedError::CertifiedError(const Model& model, int body, const reduce::Super
     loads_.push_back(load);
   }
   for (const VehiclePoint& point : points) point_names_.push_back(point.name);
+  const auto add_marker = [this](int marker) {
+    const auto known = std::find(markers_.begin(), markers_.end(), marker);
+    const auto place = static_cast<int>(known - markers_.begin());
+    if (known == markers_.end()) markers_.push_back(marker);
+    return place;
+  };
   const auto num_freedoms = static_cast<Eigen::Index>(certificate.interface.size());
   weights_.resize(num_freedoms);
   for (Eigen::Index j = 0; j < num_freedoms; ++j) {
@@ -59,9 +67,12 @@ CertifiedError::CertifiedError(const Model& model, int body, const reduce::Super
       rows_.emplace_back(-1, 0);
       continue;
     }
-    const auto known = std::find(markers_.begin(), markers_.end(), marker);
-    rows_.emplace_back(static_cast<int>(known - markers_.begin()), one.freedom);
-    if (known == markers_.end()) markers_.push_back(marker);
+    rows_.emplace_back(add_marker(marker), one.freedom);
+  }
+  for (const int marker : reported) {
+    const VehiclePoint& point = points[static_cast<std::size_t>(marker)];
+    if (point.body == body && point.kind != VehiclePoint::Kind::kCenterOfMass)
+      reported_.push_back(add_marker(marker));
   }
   const auto num_markers = static_cast<Eigen::Index>(markers_.size());
   samples_ = Eigen::MatrixXd::Zero(kBlock, num_freedoms + 2 * num_markers);
@@ -155,11 +166,6 @@ CertifiedShare CertifiedError::find_worst() const {
     const auto marker = static_cast<Eigen::Index>(rows_[j].first);
     const double rms = std::sqrt(total[marker] / blocks);
     if (rms <= kHeld * largest) continue;
-    const double share_above = std::sqrt(above[marker] / total[marker]);
-    if (rms > kLeastAcceleration && share_above > worst.loudest_above) {
-      worst.loudest = point_names_[static_cast<std::size_t>(markers_[static_cast<std::size_t>(marker)])];
-      worst.loudest_above = share_above;
-    }
     const double bound = weights_[static_cast<Eigen::Index>(j)] * std::sqrt(missing / blocks);
     const double share = bound / std::max(rms, kLeastAcceleration);
     if (!worst.point.empty() && share <= worst.missing) continue;
@@ -167,7 +173,14 @@ CertifiedShare CertifiedError::find_worst() const {
     worst.point = point_names_[place];
     worst.direction = rows_[j].second;
     worst.missing = share;
-    worst.above = share_above;
+    worst.above = std::sqrt(above[marker] / total[marker]);
+  }
+  for (const Eigen::Index marker : reported_) {
+    if (std::sqrt(total[marker] / blocks) <= std::max(kLeastAcceleration, kHeld * largest)) continue;
+    const double share_above = std::sqrt(above[marker] / total[marker]);
+    if (share_above <= worst.loudest_above) continue;
+    worst.loudest = point_names_[static_cast<std::size_t>(markers_[static_cast<std::size_t>(marker)])];
+    worst.loudest_above = share_above;
   }
   return worst;
 }

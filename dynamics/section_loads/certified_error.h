@@ -18,7 +18,7 @@ struct CertifiedShare {
   int direction = 0;     ///< 0: x, 1: y of the body
   double missing = 0.0;  ///< bound, up to the end of the band, over the r.m.s. acceleration of the point
   double above = 0.0;    ///< share of this r.m.s. above the band, about which nothing is proved
-  std::string loudest;   ///< the interface point with the largest share above the band
+  std::string loudest;   ///< the reported point with the largest share above the band
   double loudest_above = 0.0;  ///< this share
   std::string uncovered;       ///< a point with loads that are not in the interface, "" for none
 };
@@ -26,24 +26,27 @@ struct CertifiedShare {
 /// Holds the interface loads of a run, by frequency, against the certificate of a body's superelement
 /// (section_loads, eq. 6). A certificate without a bound has the errors at rest in its place. Loads and
 /// accelerations of the outputs are transformed block by block. Checked by
-/// tests/verification/certified_test.py
+/// tests/verification/bound_of_run_test.py
 class CertifiedError {
  public:
   /// @param body         0-based, of the model; with a superelement that has a certificate
   /// @param points       of the vehicle, in the order of the model's markers
+  /// @param reported     markers of the points whose motion is asked for
   /// @param output_step  > 0 [s]
   CertifiedError(const Model& model, int body, const reduce::Superelement& superelement,
-                 const std::vector<VehiclePoint>& points, double output_step);
+                 const std::vector<VehiclePoint>& points, const std::vector<int>& reported,
+                 double output_step);
 
   const std::string& name() const { return name_; }
   bool is_proved() const { return is_proved_; }      ///< whether the certificate has a bound
+  bool is_whole() const { return is_whole_; }        ///< whether all vectors of the basis take part
   double highest_hz() const { return highest_hz_; }  ///< the end of the band
   /// Adds an output.
   /// @param loads         force and torque on each marker of the model, world axes
   /// @param q             of the model
   /// @param acceleration  of each marker of markers(), world axes [m/s²]
   void add(std::span<const Wrench> loads, const Eigen::VectorXd& q, const Eigen::Matrix2Xd& acceleration);
-  const std::vector<int>& markers() const { return markers_; }  ///< of the interface points
+  const std::vector<int>& markers() const { return markers_; }  ///< of interface and reported points
   /// For the interface point and direction of which most may be missing; points that do not move, as where
   /// the body is fixed to the ground, have no share.
   CertifiedShare find_worst() const;
@@ -70,7 +73,7 @@ class CertifiedError {
   void add_block(Eigen::Index length, double& missing, Eigen::VectorXd& total, Eigen::VectorXd& above) const;
 
   std::string name_;
-  bool is_proved_;
+  bool is_proved_, is_whole_;
   double highest_hz_, step_;
   int first_;
   std::vector<std::string> point_names_;  // of each marker of the vehicle
@@ -78,6 +81,7 @@ class CertifiedError {
   Eigen::VectorXd weights_;                // √(error · static flexibility) of each interface freedom
   std::vector<std::pair<int, int>> rows_;  // place in markers_ and direction of each; rotations: −1
   std::vector<int> markers_;
+  std::vector<Eigen::Index> reported_;  // places in markers_
   // Of the present block: interface loads, then x and y of each marker.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> samples_;
   Eigen::Index num_samples_ = 0;
