@@ -54,6 +54,18 @@ BalanceReport balance_of(const PreparedRun& prepared) {
           make_start_positions(prepared.balance_model, prepared.vehicle)};
 }
 
+Json describe_road(const RoadDescription& road) {
+  Json parameters = Json::object();
+  if (road.length > 0.0)
+    parameters = {{"start", road.start}, {"length", road.length}, {"height", road.height}};
+  if (!road.file.empty()) parameters = {{"start", road.start}, {"file", road.file.string()}};
+  if (road.random) {
+    parameters = {{"start", road.start}, {"length", road.random->length}, {"seed", road.random->seed}};
+    if (road.random->rms > 0.0) parameters["rms"] = road.random->rms;
+  }
+  return parameters;
+}
+
 // What was asked for; all settings of a run are in its results file.
 Json describe_parameters(const PreparedRun& prepared) {
   const Run& run = prepared.run;
@@ -66,6 +78,7 @@ Json describe_parameters(const PreparedRun& prepared) {
           {"start", start_name(run.start)},
           {"statistics", {run.statistics_from, run.statistics_to}},
           {"road", run.road.shape},
+          {"road_parameters", describe_road(run.road)},
           {"method", method_name(run.integrator.options.method)},
           {"relative_tolerance", run.integrator.options.relative_tolerance},
           {"modes", modes}};
@@ -105,6 +118,7 @@ std::string format_model(const PreparedRun& prepared, const StoragePlan& storage
   const Equilibrium* equilibrium = prepared.equilibrium ? &*prepared.equilibrium : nullptr;
   std::string text = describe_run(prepared.vehicle, model, prepared.run, prepared.assembly,
                                   prepared.initial_velocities, equilibrium);
+  text += describe_static_lengths(prepared);
   text += fmt::format("\nInertia is about the origin of the body's frame.\n{}", bodies.str());
   if (prepared.choice) text += fmt::format("\n{}", format_choice(*prepared.choice));
   if (!model.joints.empty()) text += fmt::format("\n{}", joints.str());

@@ -235,8 +235,12 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   const std::string in_statistics =
       describe_missed_road(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.statistics_to);
   if (preparation == Preparation::kRun && in_statistics.empty()) {
-    tell_remark(remark_on_road(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.duration),
-                request, prepared);
+    std::string remark =
+        remark_on_road(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.duration);
+    if (!remark.empty())
+      remark +=
+          fmt::format("; the statistics, up to {:.6g} s, do not contain it", prepared.run.statistics_to);
+    tell_remark(std::move(remark), request, prepared);
   }
   // Modes are chosen about the balance of the rigid vehicle, if the run asks for a choice.
   if (!list_automatic_bodies(prepared.run.modes).empty()) find_free_lengths({}, {}, prepared);

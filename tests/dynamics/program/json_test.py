@@ -11,7 +11,7 @@ README = (ROOT / "dynamics/README.md").read_text(encoding="utf-8")
 QUARTER_CAR = ROOT / "dynamics/models/examples/quarter_car_run.toml"
 # Names of outputs have slashes, those of the other objects have none.
 NAMES = {"OUTPUT": ".+", "K": r"\d+", "POINT": "[^/]+", "BODY": "[^/]+", "FORCE": "[^/]+", "CHANNEL": "[^/]+",
-         "JOINT": "[^/]+", "EXTREME": "(min|max|rms)",
+         "JOINT": "[^/]+", "NAME": "[^/]+", "EXTREME": "(min|max|rms)",
          "QUANTITY": "(axial|shear|moment|static|(displacement|acceleration|force)_(rms|peak))",
          "FROM": "(from_loads|from_modes|difference)"}  # fmt: skip
 
