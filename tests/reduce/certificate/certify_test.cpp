@@ -81,17 +81,31 @@ TEST_CASE(
   CHECK_THROWS_AS(calc_band_errors(*frame.residual, frame.cutoff, frame.cutoff), std::invalid_argument);
 }
 
-// The certificate of a basis that lacks one of its vectors.
+Eigen::VectorXd list_errors(const Certificate& certificate) {
+  Eigen::VectorXd errors(static_cast<Eigen::Index>(certificate.interface.size()));
+  for (std::size_t j = 0; j < certificate.interface.size(); ++j)
+    errors(static_cast<Eigen::Index>(j)) = certificate.interface[j].error;
+  return errors;
+}
+
+// The certificate of a basis that lacks one of its vectors: larger at some freedom, and smaller at none, but
+// for the 3 % by which the pass over the band may be above the bound.
 TEST_CASE("a basis without one of its vectors has a larger certificate") {
-  const CertifiedFrame whole(2, 5);
-  const double certified = calc_certificate(*whole.residual, whole.make_request()).largest_error();
-  const EigenPairs vectors = whole.residual->ritz();
-  for (Eigen::Index left_out = 0; left_out < vectors.vectors.cols(); ++left_out) {
-    InterfaceResidual residual(whole.matrices.free, *whole.factor, whole.modes.pairs, whole.loads);
-    for (Eigen::Index i = 0; i < vectors.vectors.cols(); ++i) {
-      if (i != left_out) residual.add(vectors.vectors.col(i));
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const CertifiedFrame whole(seed, 5);
+    const Eigen::VectorXd certified = list_errors(calc_certificate(*whole.residual, whole.make_request()));
+    const EigenPairs vectors = whole.residual->ritz();
+    for (Eigen::Index left_out = 0; left_out < vectors.vectors.cols(); ++left_out) {
+      InterfaceResidual residual(whole.matrices.free, *whole.factor, whole.modes.pairs, whole.loads);
+      for (Eigen::Index i = 0; i < vectors.vectors.cols(); ++i) {
+        if (i != left_out) residual.add(vectors.vectors.col(i));
+      }
+      const Eigen::VectorXd errors = list_errors(calc_certificate(residual, whole.make_request()));
+      INFO("seed " << seed << ", vector " << left_out << ": " << errors.transpose() << " after "
+                   << certified.transpose());
+      CHECK((1.03 * errors - certified).minCoeff() >= 0.0);
+      CHECK((errors - certified).maxCoeff() > 1e-3 * certified.maxCoeff());
     }
-    CHECK(calc_certificate(residual, whole.make_request()).largest_error() > certified);
   }
 }
 
