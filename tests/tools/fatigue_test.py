@@ -4,6 +4,7 @@ cantilever as the programs run it."""
 import csv
 import json
 import os
+import re
 import unittest
 
 import h5py
@@ -258,15 +259,31 @@ shape = "flat"
 
 
 class Programs(ToolTestCase):
-    def test_a_cantilever_at_rest_has_the_stress_of_its_weight_at_its_root(self):
+    def setUp(self):
+        super().setUp()
         for name, text in (("beam.toml", DESIGN), ("vehicle.toml", VEHICLE), ("run.toml", RUN)):
             (self.folder / name).write_text(text, encoding="utf-8")
-        for program, *arguments in (
-            ("SPRUNG_REDUCE", "build", "beam.toml", "--output-dir", "."),
-            ("SPRUNG_DYNAMICS", "run", "run.toml", "--superelements", ".", "-o", "run.h5"),
-        ):
-            done = run_program([os.environ[program], *arguments], cwd=self.folder)
-            self.assertEqual(done.returncode, 0, done.stderr)
+        self.run_stage("SPRUNG_REDUCE", "build", "beam.toml", "--output-dir", ".")
+
+    def run_stage(self, program, *arguments):
+        done = run_program([os.environ[program], *arguments], cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def run_cantilever(self, *arguments):
+        self.run_stage("SPRUNG_DYNAMICS", "run", "run.toml", "--superelements", ".", "-o", "run.h5", *arguments)
+
+    def test_the_refusal_names_the_setting_with_which_the_run_is_accepted(self):
+        steps = ("--set", "output_step=0.0025")
+        self.run_cantilever(*steps, "--set", "output.step.recovery=0.01")
+        refused = self.run_tool("fatigue", "run.h5", "--category", "71")
+        self.assert_refuses(refused, "is stored every 10 ms only")
+        (setting,) = re.findall(r"again with (--set \S+),", refused.stderr)
+        self.assertEqual(setting, "--set output.step.recovery=0.0025")
+        self.run_cantilever(*steps, *setting.split())
+        self.assert_succeeds(self.run_tool("fatigue", "run.h5", "--category", "71"))
+
+    def test_a_cantilever_at_rest_has_the_stress_of_its_weight_at_its_root(self):
+        self.run_cantilever()
         with open_results(self.folder / "run.h5") as results:
             section = calc_section_stress(results, "beam", "loads")
         # M = −ρ A g L²/2 of the root, W = b h²/6: σ = 3 ρ g L²/h, tension above; the number of members does not count.

@@ -28,7 +28,7 @@ from sprung_tools.files.point_motion import (
     list_derived_points,
     read_body_motion,
 )
-from sprung_tools.files.stored_file import StoredFile
+from sprung_tools.files.stored_file import StoredFile, name_group
 
 COMPONENTS = ("x", "y", "angle")
 MOTION = ("position", "velocity", "acceleration")  # histories of each body
@@ -148,10 +148,11 @@ class ResultsFile:
             dataset = f"bodies/{derived.body}/acceleration" if derived else dataset
         every = self.file.every(dataset)
         if every > 1:
-            step = 1e3 * every * float(np.median(np.diff(self.time)))
+            step = float(np.median(np.diff(self.time)))
             raise InputError(
-                f"{self.path}: error: '{dataset}' is stored every {step:g} ms only, but is needed at every output; "
-                "[output.step] of the run file chooses how often"
+                f"{self.path}: error: '{dataset}' is stored every {1e3 * every * step:g} ms only, but is needed at "
+                f"every output: make the run again with --set output.step.{name_group(dataset)}={step:.9g}, and first "
+                "with --dry-run, which says how large its results will be"
             )
 
     def num_modes(self, body: str) -> int:

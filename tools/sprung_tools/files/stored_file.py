@@ -193,8 +193,7 @@ class StoredFile:
 
     def describe_missing(self, name: str) -> str:
         """Says that there is no such dataset, and for a history what chooses whether it is stored."""
-        group = name.partition("/")[0]
-        key = "wrenches" if "/on_" in name else group
+        key = name_group(name)
         if key in self._layout.chosen:
             return f"'{name}' is not stored; '{key}' in [output.store] of the run file chooses what is"
         return f"no dataset '{name}'"
@@ -258,6 +257,11 @@ def interpolate_rows(values: Floats, every: int, count: int) -> Floats:
     share = ((at - before * every) / every).reshape(-1, *(1,) * (values.ndim - 1))
     interpolated: Floats = values[before] + share * (values[after] - values[before])
     return interpolated
+
+
+def name_group(history: str) -> str:
+    """The key in [output.store] and [output.step] that chooses how a history is stored."""
+    return "wrenches" if "/on_" in history else history.partition("/")[0]
 
 
 def decode(value: Any) -> str:
