@@ -1,6 +1,7 @@
 """The loads of sections on the page of tools/report: the largest ones are those of all outputs, and where they are not,
 the page says so. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS) and Chromium."""
 
+import re
 import unittest
 
 import h5py
@@ -24,6 +25,23 @@ class ReportLoads(PageTestCase):
                 self.assertAlmostEqual(largest / np.max(np.abs(moment)), 1.0, places=9)
         # What the modes miss, in the warnings, is not this difference (section_loads, eq. 3).
         self.assertIn("modes miss is another number", page.evaluate("document.getElementById('loads').innerText"))
+
+    def test_what_the_modes_miss_is_said_at_the_moments_and_at_the_rows_of_the_summary_that_it_concerns(self):
+        missed = r"chassis: its modes miss .* of the largest deflection .* of the largest bending moment"
+        self.assertRegex(self.printed["2 modes"], missed)
+        page = self.open()
+        listed = "[...document.querySelectorAll('#loads [data-warnings] li')]"
+        texts = page.evaluate(f"{listed}.filter((one) => one.checkVisibility()).map((one) => one.textContent)")
+        self.assertEqual(len([text for text in texts if re.match("2 modes: " + missed, text)]), 1, texts)
+        below = page.evaluate(f"{listed}.at(-1).getBoundingClientRect().bottom") - page.box("#load-1")[1]
+        self.assertLess(below, 0.0)
+        marked = page.evaluate(
+            "[...document.querySelectorAll('#summary-table tbody')].map((one) => one.innerText)"
+            ".filter((one) => one.includes('⚠ see the warnings above'))"
+        )
+        for body, row in (("chassis", "largest bending moment along it"), ("chassis.front_end", "deflection, largest")):
+            (found,) = (one for one in marked if one.startswith(f"{body} "))
+            self.assertIn(row, found)
 
     def test_where_a_file_holds_loads_rarely_the_largest_ones_are_those_that_the_run_has_found(self):
         thin = ("--set", "output.step.recovery=0.05", "--set", "output.step.forces=0.05")

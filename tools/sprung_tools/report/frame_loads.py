@@ -12,10 +12,12 @@ from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode
 from sprung_tools.runs.largest_loads import read_own
+from sprung_tools.runs.run_warnings import SUMMARY, RunWarning
 from sprung_tools.runs.section_stress import ENDINGS, SIDES, calc_section_stress, find_gap, list_sources
 from sprung_tools.runs.stations import place_stations
 from sprung_tools.runs.stored_histories import find_row_step
 
+LOADS = "loads"  # the numbers that list_load_warnings() is about
 QUANTITIES = (("moment", "bending moment"), ("shear", "shear force"))
 LARGEST_DIFFERENCE = "largest difference from that of the modes"
 MOST_STATIONS = 160  # drawn along a body: those of every k-th element, and of the elements with an extreme
@@ -60,6 +62,18 @@ def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: in
             "step": step,
         })  # fmt: skip
     return packed
+
+
+def list_load_warnings(warnings: Sequence[RunWarning], bodies: Sequence[str]) -> list[RunWarning]:
+    """The warnings of the summary that concern the loads along these bodies, too: those of a body, and those of the
+    motion of its points, from which its loads follow. All if they do not say of what they are."""
+    found = []
+    for one in warnings:
+        of = {name.partition(".")[0] for name in one.of}
+        concerned = tuple(body for body in bodies if body in of)
+        if one.section == SUMMARY and (concerned or not of):
+            found.append(RunWarning(LOADS, concerned, one.text))
+    return found
 
 
 def pack_own(

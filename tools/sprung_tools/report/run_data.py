@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.model.vehicle_shape import read_bodies, read_wheels
-from sprung_tools.report.frame_loads import pack_frame_loads
+from sprung_tools.report.frame_loads import list_load_warnings, pack_frame_loads
 from sprung_tools.report.histories import calc_spectra, list_channels, pack_channel, pack_modes
 from sprung_tools.report.packing import Packed
 from sprung_tools.report.ride import calc_vibrations, list_ride_channels, pack_ride
@@ -33,6 +33,9 @@ def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed
     except InputError as error:  # too few samples, or unequally spaced ones; the rest of the page does not need them
         problem = str(error)
     ride = pack_ride(results, vibrations, problem)
+    loads = pack_frame_loads(results, bodies, frames // FRAMES_OF_LOADS)
+    warnings = list_warnings(results)
+    warnings += list_load_warnings(warnings, [one["body"] for one in loads])
     channels = list_channels(results, bodies, extra) + (list_ride_channels(vibrations) if ride else [])
     return {
         "label": run.label,
@@ -40,13 +43,13 @@ def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed
         "samples": int(results.time.size),
         "coarse": list(list_coarse(results)),
         "balanced": results.is_from_balance,
-        "warnings": [one._asdict() for one in list_warnings(results)],
+        "warnings": [one._asdict() for one in warnings],
         "window": read_window(results),
         "statistics": calc_statistics(results, channels),
         "vehicleModes": pack_vehicle_modes(results, bodies),
         "channels": [pack_channel(channel, results.time, most) for channel in channels],
         "ride": ride,
-        "loads": pack_frame_loads(results, bodies, frames // FRAMES_OF_LOADS),
+        "loads": loads,
         "spectra": calc_spectra(results),
         "modes": pack_modes(results, bodies, most),
         "span": [float(results.time[0]), float(results.time[-1])],

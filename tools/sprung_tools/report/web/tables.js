@@ -43,13 +43,14 @@ function fillStatistics(table, rows) {
   const head = element("tr", {}, element("th", {scope: "col"}, "quantity"), element("th", {scope: "col"}, "unit"), ...runHeadings());
   table.replaceChildren(element("thead", {}, head));
   let body = null, of = null;
-  const doubtful = new Set(warningsOf("summary").flatMap((one) => one.of));
+  const [doubtful, bodies] = ["summary", "loads"].map((section) => new Set(warningsOf(section).flatMap((one) => one.of)));
+  const isDoubtful = (row) => doubtful.has(row.of) || bodies.has(row.name.startsWith("deflection") ? row.of.split(".")[0] : row.of);
   for (const row of rows) {
     if (row.of !== of) {
       of = row.of;
       body = element("tbody");
       const heading = element("th", {class: "group", colspan: data.runs.length + 2, scope: "rowgroup"}, of);
-      if (doubtful.has(of)) heading.append(" ", element("span", {class: "bad", title: "see the warnings above"}, "⚠ see the warnings above"));
+      if (isDoubtful(row)) heading.append(" ", element("span", {class: "bad", title: "see the warnings above"}, "⚠ see the warnings above"));
       body.append(element("tr", {}, heading));
       table.append(body);
     }
