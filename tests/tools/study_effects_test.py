@@ -7,6 +7,7 @@ import numpy as np
 from tool_test_case import TOOLS  # noqa: F401  puts tools/ on the path
 
 from sprung_tools.study.effects import calc_effects, make_groups
+from sprung_tools.study.page import pack_values
 from sprung_tools.study.table import Column
 
 
@@ -82,6 +83,14 @@ class Effects(unittest.TestCase):
     def test_texts_make_groups_in_the_order_in_which_they_come(self):
         groups, names = make_groups(["bdf", "adams", "bdf", True])
         self.assertEqual((list(groups), names), ([0, 1, 0, 2], ["bdf", "adams", "true"]))
+
+    def test_lists_of_numbers_are_in_the_order_of_their_numbers(self):
+        values = [[0, 2e4], [0, 3e4], [0, -4e4], [0], [-1, 5e4]]
+        groups, names = make_groups(values)
+        in_order = ["[-1, 50000.0]", "[0]", "[0, -40000.0]", "[0, 20000.0]", "[0, 30000.0]"]
+        self.assertEqual((list(groups), names), ([3, 4, 2, 1, 0], in_order))
+        self.assertEqual(pack_values(values)["categories"], in_order)
+        self.assertEqual(pack_values([[2, 1], "off", [1, 2]])["categories"], ["[2, 1]", "off", "[1, 2]"])
 
 
 if __name__ == "__main__":

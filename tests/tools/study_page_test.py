@@ -202,6 +202,18 @@ class StudyPage(unittest.TestCase):
         chosen = page.evaluate("['heat-x', 'heat-y'].map((name) => columnOf(byId(name)).name)")
         self.assertEqual(chosen, ["road.height", "road.start"])
 
+    def test_values_that_are_lists_are_in_the_order_of_their_numbers(self):
+        text = CROWDED.replace("METHOD", "grid") + (
+            '[[parameters]]\nname = "rate"\nkey = "vehicle.forces.suspension.spring.polynomial"\n'
+            'values = [[0, 2e4], [0, 3e4], [0, 1e4]]\n[[parameters]]\nkey = "road.height"\nvalues = [0.01, 0.02]\n'
+        )
+        (self.folder / "lists.toml").write_text(text, encoding="utf-8")
+        run_program([TOOLS / "study", "lists.toml", "-o", "lists"], cwd=self.folder, check=True)
+        page = self.open(folder="lists")
+        in_order = ["[0, 10000.0]", "[0, 20000.0]", "[0, 30000.0]"]
+        self.assertEqual(page.evaluate("fieldsOf(parameterColumns[0]).map((one) => one.name)"), in_order)
+        self.assertEqual(page.evaluate("data.effects.find((one) => one.parameter === 'rate').groups"), in_order)
+
     def test_the_heat_map_shows_means_over_fields(self):
         page = self.open()
         self.choose(page, "heat-measure", "suspensions/suspension/compression")

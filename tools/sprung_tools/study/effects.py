@@ -16,7 +16,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.study.execution import Finished
-from sprung_tools.study.table import Column, format_cell
+from sprung_tools.study.table import Column, are_numbers, format_cell, list_distinct
 
 MOST_VALUES = 12  # of a parameter that make a group each
 PARTS, LEAST_RUNS = 5, 3  # groups of many values; runs in each
@@ -43,13 +43,9 @@ class Effect(NamedTuple):
 
 def make_groups(values: list[Any]) -> tuple[Integers, list[str]]:
     """The group of each run by the values of a parameter, and the names of the groups."""
-    distinct = list({format_cell(one): one for one in values}.items())
-    is_real = all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values)
-    if is_real:
-        distinct.sort(key=lambda one: float(one[1]))
-    is_repeated = len(distinct) <= MOST_VALUES and len(values) >= 2 * len(distinct)
-    if is_repeated or not is_real:
-        names = [name for name, _ in distinct]
+    names = list_distinct(values)
+    is_repeated = len(names) <= MOST_VALUES and len(values) >= 2 * len(names)
+    if is_repeated or not are_numbers(values):
         order = {name: number for number, name in enumerate(names)}
         return np.array([order[format_cell(one)] for one in values], dtype=int), names
     numbers = np.array(values, dtype=float)

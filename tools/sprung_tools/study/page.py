@@ -12,7 +12,7 @@ from sprung_tools.files.array_types import Floats
 from sprung_tools.report.template import WEB, fill_template, pack_json, read_asset
 from sprung_tools.study.effects import Effect
 from sprung_tools.study.execution import Finished
-from sprung_tools.study.table import Column, format_cell
+from sprung_tools.study.table import Column, are_numbers, format_cell, list_distinct
 
 STUDY_WEB = os.path.join(os.path.dirname(os.path.realpath(__file__)), "web")
 SHARED_SCRIPTS = ("common.js", "save.js")  # of the report's page
@@ -37,7 +37,7 @@ def pack_study(
 ) -> dict[str, Any]:  # fmt: skip
     """The data of the page."""
     parameters = [
-        {"name": one.name, "keys": one.keys, "values": [pack_value(point[number]) for point in finished.points]}
+        {"name": one.name, "keys": one.keys, **pack_values([point[number] for point in finished.points])}
         for number, one in enumerate(finished.study.parameters)
     ]
     measures = [{"name": one.name, "unit": one.unit, "values": pack_numbers(one.values)} for one in columns]
@@ -58,10 +58,11 @@ def pack_study(
     }  # fmt: skip
 
 
-def pack_value(value: Any) -> float | str:
-    """A value of a parameter: a number, or a text that names a category."""
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    return float(value) if is_number else format_cell(value)
+def pack_values(values: Sequence[Any]) -> dict[str, Any]:
+    """The values of a parameter: numbers, or texts and what there are of these in the order of the scales."""
+    if are_numbers(values):
+        return {"values": [float(one) for one in values]}
+    return {"values": [format_cell(one) for one in values], "categories": list_distinct(values)}
 
 
 def pack_numbers(values: Floats) -> list[float | None]:

@@ -3,6 +3,7 @@
 
 import csv
 import io
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import h5py
@@ -50,6 +51,20 @@ def format_cell(value: Any) -> str:
     return value if isinstance(value, str) else format_value(value)
 
 
+def are_numbers(values: Iterable[Any]) -> bool:
+    """Whether all values are numbers, which false and true are not."""
+    return all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values)
+
+
+def list_distinct(values: Iterable[Any]) -> list[str]:
+    """The distinct values of a parameter as cells: numbers in their order, lists of numbers by the first number that
+    differs, others in the order in which they come."""
+    distinct = {format_cell(one): one for one in values}
+    if are_numbers(distinct.values()) or all(isinstance(one, list) and are_numbers(one) for one in distinct.values()):
+        return sorted(distinct, key=lambda cell: distinct[cell])
+    return list(distinct)
+
+
 def format_number(value: float) -> str:
     """A number with all its digits; empty if it is not there."""
     return "" if np.isnan(value) else repr(float(value))
@@ -77,8 +92,7 @@ def make_hdf5(finished: Finished, columns: list[Column]) -> bytes:
         file.attrs.update({"format": np.bytes_(FORMAT), "version": VERSION, "units": np.bytes_("SI")})
         for number, parameter in enumerate(finished.study.parameters):
             values = [point[number] for point in finished.points]
-            is_real = all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values)
-            data = np.array(values, dtype=float) if is_real else encode_texts(map(format_cell, values))
+            data = np.array(values, dtype=float) if are_numbers(values) else encode_texts(map(format_cell, values))
             dataset = write_dataset(file, f"parameters/{parameter.name}", data)
             dataset.attrs["keys"] = encode_texts(parameter.keys)
         for one in columns:

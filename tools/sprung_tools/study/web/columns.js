@@ -1,11 +1,9 @@
 "use strict";
 // The columns of the table, their scales and colours; the run that is chosen.
 
-/** All columns: parameters, then measures. A column of texts has categories, and its numbers are their places. */
+/** All columns: parameters, then measures. A column of texts has categories in order, and its numbers are their places. */
 const columns = [...data.parameters, ...data.measures].map((one, index) => {
-  const isText = one.values.some((value) => typeof value === "string");
-  const categories = isText ? [...new Set(one.values.map(String))] : null;
-  const numbers = isText ? one.values.map((value) => categories.indexOf(String(value))) : one.values;
+  const categories = one.categories || null, numbers = categories ? one.values.map((value) => categories.indexOf(value)) : one.values;
   const known = numbers.filter((value) => value !== null);
   return {name: one.name, unit: one.unit || "", values: one.values, numbers, categories, isParameter: index < data.parameters.length,
     low: Math.min(...known), high: Math.max(...known), index};
