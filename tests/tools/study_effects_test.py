@@ -26,7 +26,28 @@ class Effects(unittest.TestCase):
         self.assertAlmostEqual(second.share, 0.2, places=14)
         np.testing.assert_allclose(first.means, [-2.0, 2.0])
         self.assertEqual((first.groups, list(first.counts)), (("-1.0", "1.0"), [2, 2]))
-        self.assertAlmostEqual(first.chance, 1.0 / 3.0)
+        self.assertEqual((first.chance, second.chance), (0.0, 0.0))  # b has the same values in both groups of a
+        self.assertTrue(second.is_seen)
+
+    def test_of_random_points_chance_alone_explains_more_in_one_case_of_twenty(self):
+        random = np.random.default_rng(7)
+        for num_values, count in ((2, 11), (16, 16)):
+            points = [(float(value), float(other)) for value, other in
+                      zip(np.arange(count) % num_values, random.permutation(count))]  # fmt: skip
+            columns = [Column(f"o/{k}", f"{k}", "", random.standard_normal(count)) for k in range(1500)]
+            effects = [one for one in calc_effects(make_study(("a", "b"), points), columns) if one.parameter == "a"]
+            self.assertEqual(len(effects[0].counts), min(num_values, 5))
+            seen = np.mean([one.is_seen for one in effects])
+            self.assertAlmostEqual(seen, 0.05, delta=4.0 * np.sqrt(0.05 * 0.95 / 1500))
+            mean = np.mean([one.share for one in effects])
+            self.assertAlmostEqual(mean, (len(effects[0].counts) - 1) / (count - 1), delta=0.01)
+
+    def test_groups_have_three_runs_also_where_others_have_failed(self):
+        values = np.random.default_rng(1).permutation(16).astype(float)
+        measured = np.where(np.arange(16) < 11, values, np.nan)
+        (effect,) = calc_effects(make_study(("a",), [(one,) for one in values]), [Column("o/y", "y", "", measured)])
+        self.assertEqual(sorted(effect.counts), [3, 4, 4])
+        self.assertLess(effect.chance, 1.0)
 
     def test_runs_without_the_measure_do_not_count(self):
         points = [(1.0,), (1.0,), (3.0,), (3.0,)]

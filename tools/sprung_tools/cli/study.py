@@ -19,7 +19,7 @@ from sprung_tools.files.whole_file import write_whole
 from sprung_tools.programs.calls import CHECK_FAILED
 from sprung_tools.programs.finding import find_programs
 from sprung_tools.programs.process_pool import count_processors
-from sprung_tools.study.effects import Effect, calc_effects
+from sprung_tools.study.effects import LEAST_SEEN, Effect, calc_effects
 from sprung_tools.study.execution import Finished, Options, find_missing, run_study
 from sprung_tools.study.page import make_study_page
 from sprung_tools.study.sampling import is_balanced, make_points
@@ -69,14 +69,14 @@ def format_effects(effects: list[Effect]) -> str:
         (one.measure, one.parameter, f"{100.0 * (one.share or 0.0):.0f} %", f"{100.0 * one.chance:.0f} %")
         for one in seen[:MOST_SHOWN]
     ]
-    headings = ("measure", "parameter", "explains of the variation", "by chance")
+    headings = ("measure", "parameter", "explains of the variance", "chance up to")
     text = [format_table(headings, sorted(rows))] if rows else []
     unknown = list(dict.fromkeys(one.parameter for one in effects if one.share is None))
     weak = sum(one.share is not None and not one.is_seen for one in effects)
     if len(seen) > MOST_SHOWN:
         text.append(f"note: {len(seen) - MOST_SHOWN} smaller effects are on the page only")
     if weak:
-        text.append(f"note: {weak} other effects explain no more than chance")
+        text.append(f"note: {weak} other effects explain no more than chance, or less than {100.0 * LEAST_SEEN:g} %")
     if unknown:
         text.append(f"note: cannot be judged, with one value or too few runs: {', '.join(unknown)}")
     return "\n".join(text)

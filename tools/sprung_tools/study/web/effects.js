@@ -31,7 +31,7 @@ function drawEffects() {
   const found = effectsOf(measure), percent = (share) => `${(100 * share).toFixed(0)} %`,
     tell = (one) => (one.share === null ? "cannot be judged" : one.share > one.chance ? percent(one.share) : "no more than chance");
   byId("effect-table").replaceChildren(
-    element("thead", {}, element("tr", {}, ...["parameter", "explains of the variation", "by chance", "lowest mean", "highest mean"]
+    element("thead", {}, element("tr", {}, ...["parameter", "explains of the variance", "chance up to", "lowest mean", "highest mean"]
       .map((text, k) => element("th", {class: k ? "number" : ""}, text)))),
     element("tbody", {}, ...found.map((one) => element("tr", {}, element("th", {scope: "row"}, one.parameter),
       ...[tell(one), percent(one.chance), format(Math.min(...one.means)), format(Math.max(...one.means))]
