@@ -6,15 +6,18 @@ import math
 import os
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 from tool_test_case import ROOT, ToolTestCase
 
+from sprung_tools.cli.ride_limits import make_curves
 from sprung_tools.files.errors import InputError
 from sprung_tools.limits.ride_limits import Obstacles, Terrain, calc_peak, calc_power, find_roughness, find_speed
 from sprung_tools.limits.roads import calc_obstacle, make_terrain
-from sprung_tools.limits.root_finding import CallFailed, find_root
+from sprung_tools.limits.root_finding import CallFailed, Root, find_root
 from sprung_tools.limits.trials import Variant, Vehicle, Wheels
+from sprung_tools.plots.limits_picture import Curve, make_limits_figure, make_obstacle_panel, make_terrain_panel
 from sprung_tools.programs.in_process import load_module
 from sprung_tools.signals.road_profile import Recipe
 
@@ -239,6 +242,31 @@ class DrivenSpeed(QuarterCarCase):
         # An error of the run file itself is not laid to these runs, whatever it says.
         with self.assertRaisesRegex(InputError, r"^output_step=3: error: 'output_step' of .* duration of 1 s$"):
             self.vehicle("sprung.origin", "output_step=3")
+
+
+class Picture(unittest.TestCase):
+    def test_every_limit_is_inside_and_one_beyond_the_bounds_is_an_open_mark_at_its_bound(self):
+        vehicles = [SimpleNamespace(variant=SimpleNamespace(label=one)) for one in ("base", "soft")]
+        roots = {0.1: Root(None, "above", "", 9), 0.2: Root(3.0, "", "", 9), 0.3: Root(2.9, "", "", 9),
+                 0.4: Root(None, "below", "", 1), 0.5: Root(None, "", "failed", 1)}  # fmt: skip
+        found = [SimpleNamespace(vehicle=one, given=height, root=root) for one in vehicles
+                 for height, root in roots.items()]  # fmt: skip
+        curves = make_curves(vehicles, found, False, (1.0, 25.0))
+        steep = [Curve("base", [(0.0333, 8.0), (0.0251, 15.0)])]  # the least of both is near the largest
+        panels = (make_terrain_panel(steep, 6.0, (0.002, 0.15)), make_obstacle_panel(curves, "2.5 g", (1.0, 25.0)))
+        figure = make_limits_figure("van", panels)
+        for axes in figure.axes:
+            for line in axes.lines:
+                for end, data in ((axes.get_xlim()[1], line.get_xdata()), (axes.get_ylim()[1], line.get_ydata())):
+                    self.assertLess(max(data, default=0.0), 0.95 * end)
+        over_obstacles = figure.axes[1]
+        marks = {line.get_marker(): (list(line.get_xdata()), list(line.get_ydata())) for line in over_obstacles.lines
+                 if len(line.get_xdata())}  # fmt: skip
+        self.assertEqual(marks, {"o": ([200.0, 300.0], [3.6 * 3.0, 3.6 * 2.9]), "^": ([100.0], [90.0]),
+                                 "v": ([400.0], [3.6])})  # fmt: skip
+        words = [one.get_text() for one in over_obstacles.get_legend().get_texts()]
+        self.assertEqual(words, ["base", "soft", "limit below 1 m/s", "limit above 25 m/s"])
+        self.assertEqual([one.get_text() for one in figure.axes[0].get_legend().get_texts()], ["base"])
 
 
 class Command(QuarterCarCase):

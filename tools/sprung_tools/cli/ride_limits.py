@@ -26,9 +26,9 @@ from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.limits.ride_limits import GRAVITY, Obstacles, Terrain, find_roughness, find_speed
-from sprung_tools.limits.root_finding import Root
+from sprung_tools.limits.root_finding import ABOVE, BELOW, Root
 from sprung_tools.limits.trials import Variant, Vehicle
-from sprung_tools.plots.limits_picture import Curve, make_limits_figure
+from sprung_tools.plots.limits_picture import Curve, make_limits_figure, make_obstacle_panel, make_terrain_panel
 from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.programs.finding import DYNAMICS, find_program
 from sprung_tools.programs.process_pool import count_processors, open_pool
@@ -202,13 +202,19 @@ def make_json(
     return json.dumps(whole, indent=1, ensure_ascii=False, allow_nan=False)
 
 
-def make_curves(vehicles: Sequence[Vehicle], found: Sequence[Found], is_terrain: bool) -> list[Curve]:
-    """The curves of a picture: of terrain the roughness is what was found, of obstacles the speed."""
+def make_curves(
+    vehicles: Sequence[Vehicle], found: Sequence[Found], is_terrain: bool, bounds: tuple[float, float]
+) -> list[Curve]:
+    """The curves of a picture: of terrain the roughness is what was found, of obstacles the speed. bounds: of it."""
+    at_bounds = dict(zip((BELOW, ABOVE), bounds))
     curves = []
     for vehicle in vehicles:
-        pairs = [(one.given, one.root.value) for one in found if one.vehicle is vehicle and one.root.value is not None]
-        points = [(value, given) if is_terrain else (given, value) for given, value in pairs]
-        curves.append(Curve(vehicle.variant.label, points))
+        points: dict[str, list[tuple[float, float]]] = {"": [], BELOW: [], ABOVE: []}
+        for one in (one for one in found if one.vehicle is vehicle):
+            value = at_bounds.get(one.root.side, one.root.value)
+            if value is not None:
+                points[one.root.side].append((value, one.given) if is_terrain else (one.given, value))
+        curves.append(Curve(vehicle.variant.label, points[""], points[BELOW], points[ABOVE]))
     return curves
 
 
@@ -311,11 +317,12 @@ def main() -> int:
         except BrokenProcessPool as error:
             raise InputError("ride_limits: error: one of its processes was ended from outside") from error
     if arguments.output:
-        title = vehicles[0].title
-        curves = (make_curves(vehicles, terrain, True), make_curves(vehicles, obstacles, False))
-        write_picture(
-            make_limits_figure(title, *curves, search.terrain.power, f"{arguments.peak:g} g"), arguments.output
-        )
+        roughness, speeds = search.terrain.roughness, search.obstacles.speeds
+        over_terrain = make_curves(vehicles, terrain, True, roughness)
+        over_obstacles = make_curves(vehicles, obstacles, False, speeds)
+        panels = (make_terrain_panel(over_terrain, search.terrain.power, roughness),
+                  make_obstacle_panel(over_obstacles, f"{arguments.peak:g} g", speeds))  # fmt: skip
+        write_picture(make_limits_figure(vehicles[0].title, panels), arguments.output)
     if arguments.json:
         print(make_json(arguments.run, arguments.point, vehicles, search, terrain, obstacles))
     else:
