@@ -7,7 +7,7 @@ from tool_test_case import ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
-from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands, describe_comfort
+from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands, describe_comfort, list_remarks
 from sprung_tools.signals.absorbed_power import FEET_PER_METRE, calc_response
 from sprung_tools.signals.ride_weighting import WD, WE, WK, calc_weighting
 from sprung_tools.signals.third_octaves import NOMINAL
@@ -52,6 +52,14 @@ class RideAssessment(ToolTestCase):
         seat = calc_assessment(self.results, "points/body.seat", WINDOW)
         self.assertAlmostEqual(found.vertical, 0.5 * seat.vertical)
         self.assertAlmostEqual(found.pitch, seat.pitch)
+
+    def test_a_remark_names_a_centre_of_mass_as_the_tables_do(self):
+        with h5py.File(write_ride_results(self.folder / "b.h5"), "a") as file:
+            del file["bodies/body/acceleration"]
+        with open_results(self.folder / "b.h5") as results:
+            centre, seat = list_remarks(results, ["bodies/body/center_of_mass", "points/body.seat"], WINDOW)
+        self.assertTrue(centre.startswith("body.center_of_mass: without We and the total: "), centre)
+        self.assertTrue(seat.startswith("body.seat: without We and the total: "), seat)
 
     def test_the_sine_is_in_its_band(self):
         bands = calc_bands(self.results, "points/body.seat", WINDOW)

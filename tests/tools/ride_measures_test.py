@@ -265,8 +265,8 @@ class Tool(ToolTestCase):
             file.require_group("summary").attrs["energy_closure"] = 1e-9
         process = self.run_tool("ride", "truck=a.h5")
         self.assert_succeeds(process)
-        reason = "body.seat, body: without the weighted values and the absorbed power: a sample every 10 ms is too few"
-        self.assertIn(f"note: truck: {reason}", process.stdout)
+        reason = "without the weighted values and the absorbed power: a sample every 10 ms is too few"
+        self.assertIn(f"note: truck: body.seat, body.center_of_mass: {reason}", process.stdout)
         rows = {line.split()[0]: line.split() for line in process.stdout.splitlines() if "truck" in line}
         self.assertEqual(rows["body.seat"][2:], ["1.411", "2", *["–"] * 8])
         self.assertEqual(rows["tyre"][2], "50.00")

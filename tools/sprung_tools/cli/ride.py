@@ -37,9 +37,8 @@ from sprung_tools.runs.measures import (
     list_linear_objects,
     list_objects,
     pack_measures,
-    point_name,
 )
-from sprung_tools.runs.ride_assessment import list_remarks
+from sprung_tools.runs.ride_assessment import list_remarks, point_name
 from sprung_tools.runs.ride_measures import (
     calc_contact,
     calc_travel,

@@ -13,6 +13,7 @@ import numpy as np
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers, read_real, read_text, read_texts
+from sprung_tools.files.point_motion import CENTRE
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.files.stored_file import StoredFile
 from sprung_tools.runs.labelled_responses import Response
@@ -26,7 +27,7 @@ from sprung_tools.runs.largest_loads import (
     find_bending,
     find_best_peak,
 )
-from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands
+from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands, point_name
 from sprung_tools.runs.ride_measures import (
     calc_comfort,
     calc_contact,
@@ -49,7 +50,6 @@ from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import NOMINAL
 
 JSON_FORMAT, JSON_VERSION = "sprung-measures", 2  # tools/README.md, "Measures"
-CENTRE = "center_of_mass"
 HISTORIES = "histories/"
 UNKNOWN = "the run has no such value (tools/README.md, Measures, tells when a value is null)"
 # The units of the measures of each kind of object; those of the summary follow from the ends of their names.
@@ -114,12 +114,6 @@ def find_points(results: ResultsFile, wanted: Sequence[str] = ()) -> list[str]:
         is_centre = point == CENTRE and not results.file.has_dataset(f"points/{name}/acceleration")
         points.append(f"bodies/{body}/{CENTRE}" if is_centre else f"points/{name}")
     return points
-
-
-def point_name(folder: str) -> str:
-    """The name of a point in tables: `points/chassis.seat` → `chassis.seat`."""
-    group, name, *_ = folder.split("/")
-    return name if group == "points" else f"{name}.{CENTRE}"
 
 
 def list_objects(

@@ -14,6 +14,7 @@ import numpy as np
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.files.point_motion import CENTRE
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import read_point
 from sprung_tools.runs.labelled_runs import samples_between
@@ -77,6 +78,12 @@ def name_body(point: str) -> str:
     return name.partition(".")[0] if group == "points" else name
 
 
+def point_name(point: str) -> str:
+    """The name of a point in tables: `points/chassis.seat` → `chassis.seat`. point: as calc_vibration() takes it."""
+    group, name, *_ = point.split("/")
+    return name if group == "points" else f"{name}.{CENTRE}"
+
+
 def find_pitch_gap(results: ResultsFile, point: str) -> str:
     """Why the file does not tell the rotation of the body at a point; empty if it does. point: as calc_vibration()
     takes it."""
@@ -93,9 +100,9 @@ def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> l
     gaps = {point: find_pitch_gap(results, point) for point in points}
     fault = describe_fault(sampling_step(results)) if points else ""
     if fault:
-        names = ", ".join(point.split("/")[1] for point in points)
+        names = ", ".join(map(point_name, points))
         return [f"{names}: without the weighted values and the absorbed power: {fault}", *list_static_remarks(results)]
-    remarks = [f"{point.split('/')[1]}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
+    remarks = [f"{point_name(point)}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
     times = results.time[samples_between(results, *window)]
     length = float(times[-1] - times[0])
     if points and length < RUNNING * (1.0 - ROUNDING):
