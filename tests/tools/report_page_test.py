@@ -3,6 +3,7 @@ animation are drawn, that time moves the vehicle to where the results have it. N
 SPRUNG_DYNAMICS); pictures are kept in the folder SPRUNG_SCREENSHOTS."""
 
 import itertools
+import re
 import shutil
 import unittest
 
@@ -296,6 +297,29 @@ class ReportPage(PageTestCase):
                 height, width = (np.ptp(np.flatnonzero(np.any(drawn, axis=axis))) for axis in (1, 0))
                 self.assertGreater(height, least * drawn.shape[0])
                 self.assertGreater(width, 0.7 * drawn.shape[1])
+
+    def test_the_distances_along_the_road_are_not_hidden_by_the_bars_of_the_tyres_forces(self):
+        page = self.open()
+        strip, green = slice(-20, None), (0x00, 0x7A, 0x55)
+        # As if the greatest force were the one at the start, so that its bar is the longest that there may be.
+        page.evaluate(
+            "player.runs.forEach((one) => { one.largest = Math.max(...Object.values(one.tyres).map((tyre) =>"
+            "tyre.force[0])); })"
+        )
+        self.set_time(page, 0.0)
+        picture = page.picture(selector="#scene")
+        self.assertFalse(np.any(is_colour(picture[strip], green)))
+        self.assertGreater(np.count_nonzero(is_colour(picture, green)), 50)
+        soft = np.array([int(one, 16) for one in re.findall("..", page.evaluate("style('--soft').slice(1)"))])
+        seen = [np.count_nonzero(is_colour(page.picture(selector="#scene")[strip], soft, 0.05))]
+        page.evaluate(
+            "drawTyreForce = (context, view) => { context.fillStyle = style('--good');"
+            "context.fillRect(0, view.height - 20, view.width, 20); }; drawScene()"
+        )
+        picture = page.picture(selector="#scene")[strip]
+        seen.append(np.count_nonzero(is_colour(picture, soft, 0.05)))
+        self.assertGreater(seen[0], 50)
+        self.assertGreater(seen[1], 0.8 * seen[0])
 
     def test_values_under_the_mouse_have_their_unit_and_frequencies_that_crowd_are_not_all_named(self):
         page = self.open()

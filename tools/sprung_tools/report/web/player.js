@@ -34,13 +34,11 @@ function drawScene() {
   context.fillRect(0, 0, width, height);
   const view = makeView(shown, clock.time, width, height, scale, room);
   player.view = view;
-  if (main.vehicle.wheels.length) {
-    drawRoad(context, view, main.road);
-    drawDistances(context, view, main.road);
-  }
+  if (main.vehicle.wheels.length) drawRoad(context, view, main.road);
   if (player.other >= 0) drawVehicle(context, view, player.runs[player.other], clock.time, 0.6);
   player.beyond = player.other >= 0 ? nameBeyond(context, view, player.runs[player.other], clock.time) : "";
   const {told, nodes} = drawVehicle(context, view, main, clock.time, 1);
+  if (main.vehicle.wheels.length) drawDistances(context, view, main.road);
   player.labelled = player.labels ? drawLabels(context, view, main.vehicle, nodes) : [];
   drawCaptions(context, view, main.vehicle, player.magnification);
   byId("state").textContent = told.join(" · ");

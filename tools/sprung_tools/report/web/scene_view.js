@@ -3,7 +3,8 @@
 
 const ROOM = 1.3;  // width of the view in vehicle lengths, on a wide screen
 const EDGE = 12;    // between the view's edge and the vehicle, px
-const BELOW = 44;   // from the ground to the lower edge, px
+const BAR = 36;     // of the largest force of a tyre at most, px
+const BELOW = BAR + 26;  // from the ground to the lower edge: below the bars stand the distances, px
 const LEAST_HEIGHT = 160, MOST_HEIGHT = 460;  // of the scene, px
 const MOST_RISE = 0.6;  // of the vehicle's height: room kept above it for its jumps
 
@@ -87,24 +88,26 @@ function drawRoad(context, view, road) {
   context.fill();
 }
 
-/** Distances along the road, where the results tell its direction. */
+/** Distances along the road, where the results tell its direction; edged, as where it falls the bar of a tyre's force lies behind them. */
 function drawDistances(context, view, road) {
   if (!road || !road.direction) return;
   const step = [0.5, 1, 2, 5, 10, 20, 50].find((one) => one * view.scale > 60) || 100;
   const along = (x) => road.direction * x - road.origin;
   const [from, to] = [along(view.left), along(view.right)].sort((a, b) => a - b);
-  context.fillStyle = context.strokeStyle = style("--soft");
-  context.lineWidth = 1;
+  context.fillStyle = style("--soft");
+  context.strokeStyle = style("--ground");
+  context.lineWidth = 4;
+  context.lineJoin = "round";
   context.font = "11px system-ui, sans-serif";
   context.textAlign = "center";
+  context.textBaseline = "alphabetic";
   for (let k = Math.ceil(from / step); k * step <= to; ++k) {
     const x = view.X((k * step + road.origin) / road.direction);
     if (x < 20 || x > view.width - 20) continue;
-    context.beginPath();
-    context.moveTo(x, view.height - 20);
-    context.lineTo(x, view.height - 15);
-    context.stroke();
-    context.fillText(`${formatTick(k * step)} m`, x, view.height - 4);
+    const text = `${formatTick(k * step)} m`, y = view.height - 4;
+    context.strokeText(text, x, y);
+    context.fillText(text, x, y);
+    context.fillRect(x - 0.5, view.height - 20, 1, 5);
   }
 }
 

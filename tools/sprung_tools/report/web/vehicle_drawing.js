@@ -24,11 +24,11 @@ function drawWheel(context, view, wheel, centre, colour, contact) {
   context.fill();
 }
 
-/** The bar below a tyre on the road, as long as its force. */
+/** The bar below a tyre on the road, as long as its force: above the distances, unless the road falls. */
 function drawTyreForce(context, view, wheel, centre, share) {
   const radius = view.scale * wheel.radius, half = Math.max(4, 0.16 * radius);
   context.fillStyle = style("--good");
-  context.fillRect(view.X(centre[0]) - half, view.Y(centre[1]) + radius + 3, 2 * half, Math.max(2, 0.9 * radius * share));
+  context.fillRect(view.X(centre[0]) - half, view.Y(centre[1]) + radius + 3, 2 * half, Math.max(2, Math.min(0.9 * radius, BAR) * share));
 }
 
 function drawSpring(context, view, [ax, ay], [bx, by], size) {
