@@ -73,6 +73,13 @@ class PlotResponse(ToolTestCase):
         self.assert_refuses(self.run_tool("plot_response", "-o", "out.png", "a.h5", "--show", SEAT, "--bands"),
                             "a.h5: error: no third-octave band from 0.5 to 80 Hz has 8 frequencies")  # fmt: skip
 
+    def test_commands_that_take_runs_say_which_draw_a_response(self):
+        for tool in ("report", "plot_results"):
+            words = ("--show", SEAT) if tool == "plot_results" else ()
+            self.assert_refuses(self.run_tool(tool, "a.h5", "-o", "out.html", *words), "a.h5: error: format is "
+                                "'sprung-response', expected 'sprung-results'; plot_response draws a response, ride "
+                                "prints its measures")  # fmt: skip
+
     def test_missing_outputs_and_files_are_refused(self):
         for arguments, fragment in (
             (

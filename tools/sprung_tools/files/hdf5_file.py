@@ -18,6 +18,12 @@ from sprung_tools.files.superelement_layout import RESPONSE_LAYOUT, SUPERELEMENT
 RESULTS, SUPERELEMENT = "sprung-results", "sprung-superelement"
 RESPONSE, MODE_CHOICE = "sprung-response", "sprung-mode-choice"
 NEWEST_VERSIONS = {RESULTS: 2, SUPERELEMENT: 7, RESPONSE: 1, MODE_CHOICE: 1}  # that are understood here
+TAKEN_BY = {  # by which commands
+    RESULTS: "report, ride and plot_results take results",
+    SUPERELEMENT: "compare_frequencies and export_paraview take superelements",
+    RESPONSE: "plot_response draws a response, ride prints its measures",
+    MODE_CHOICE: "plot_modes draws a choice of modes",
+}
 LAYOUTS = {
     RESULTS: RESULTS_LAYOUT, SUPERELEMENT: SUPERELEMENT_LAYOUT, RESPONSE: RESPONSE_LAYOUT, MODE_CHOICE: RESULTS_LAYOUT,
 }  # fmt: skip
@@ -54,7 +60,8 @@ def check_format(file: StoredFile, wanted_format: str) -> None:
     if found is None:
         raise WrongFormatError(f"{path}: error: no attribute 'format', expected '{wanted_format}'", found)
     if found != wanted_format:
-        raise WrongFormatError(f"{path}: error: format is '{found}', expected '{wanted_format}'", found)
+        advice = f"; {TAKEN_BY[found]}" if found in TAKEN_BY else ""
+        raise WrongFormatError(f"{path}: error: format is '{found}', expected '{wanted_format}'{advice}", found)
     version = file.attribute("", "version", int, 0)
     newest_version = NEWEST_VERSIONS[wanted_format]
     if not 1 <= version <= newest_version:
