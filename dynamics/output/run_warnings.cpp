@@ -105,7 +105,7 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
                                                                             : worst.acceleration.coordinate;
   const auto place = static_cast<std::size_t>(adaptivity.full->body_coordinate(coordinate).body);
   const std::string& body = adaptivity.full->bodies[place].name;
-  std::vector<std::string> points = list_points_of(body, statistics);
+  std::vector<std::string> points = list_rows_of(body, statistics);
   if (missing.point >= 0) {
     const std::string named = name_missing_point(adaptivity, missing);
     if (std::find(points.begin(), points.end(), named) == points.end()) points.push_back(named);

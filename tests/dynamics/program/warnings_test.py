@@ -35,7 +35,7 @@ class Warnings(DynamicsTestCase):
         first, second = (one for one in printed["warnings"] if "modes are missing" in one["text"])
         self.assertTrue(first["text"].startswith("modes are missing: chassis.mode 3, which was left out"))
         self.assertIn("% of the r.m.s. acceleration of chassis.seat, most of it along x, and would", first["text"])
-        self.assertEqual((first["concerns"], first["of"]), ("summary", ["chassis.origin", "chassis.seat"]))
+        self.assertEqual((first["concerns"], first["of"]), ("summary", ["chassis.origin", "chassis.seat", "chassis"]))
         self.assertEqual((second["concerns"], second["of"], second["text"]), ("modes", ["chassis"], first["text"]))
         stored = [
             {"concerns": one["section"], "of": list(one["of"]), "text": one["text"]} for one in self.read_warnings()
@@ -47,7 +47,7 @@ class Warnings(DynamicsTestCase):
         first = printed["warnings"][0]
         self.assertTrue(first["text"].startswith("modes are missing: chassis.mode 3"), first)
         self.assertIn("of the r.m.s. acceleration of front_axle.origin", first["text"])
-        self.assertEqual((first["concerns"], first["of"]), ("summary", ["front_axle.origin"]))
+        self.assertEqual((first["concerns"], first["of"]), ("summary", ["chassis", "front_axle.origin"]))
 
     def test_balance_and_modes_print_their_warnings_as_json(self):
         for verb in ("equilibrium", "modes"):
