@@ -6,7 +6,7 @@ import sys
 import unittest
 
 from ride_results import write_ride_results
-from tool_test_case import TOOLS, ToolTestCase
+from tool_test_case import TOOLS, ToolTestCase, run_program
 
 BEGIN = (
     "import os, signal, sys, time\nsys.path.insert(0, {tools!r})\n"
@@ -62,6 +62,14 @@ class Guarded(ToolTestCase):
                 process = subprocess.run([TOOLS / arguments[0], *arguments[1:]], cwd=self.folder, stdout=full,
                                          stderr=subprocess.PIPE, encoding="utf-8", check=False)  # fmt: skip
                 self.assert_refuses(process, "ride: error: No space left on device")
+
+    def test_errors_that_nobody_can_read_still_give_their_exit_code(self):
+        write_ride_results(self.folder / "a.h5")
+        for arguments, code in (("a.h5", 0), ("none.h5", 2), ("--nonsense", 2)):
+            for closed in ("2>&-", "<&- 2>&-", "2>/dev/full"):
+                with self.subTest(arguments, closed=closed):
+                    process = run_program(["sh", "-c", f"'{TOOLS / 'ride'}' {arguments} {closed}"], cwd=self.folder)
+                    self.assertEqual((process.returncode, bool(process.stdout)), (code, code == 0))
 
 
 if __name__ == "__main__":

@@ -56,6 +56,14 @@ class Scripts(ToolTestCase):
                 self.assertIn("error: ", process.stderr)
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_a_closed_output_is_refused_in_one_line(self):
+        for name in PYTHON:
+            with self.subTest(name):
+                process = run_program(["sh", "-c", f"'{TOOLS / name}' --help >&-"], cwd=self.folder)
+                self.assert_refuses(process, f"tools/{name}: error: standard output is closed")
+                process = run_program(["sh", "-c", f"'{TOOLS / name}' --help >&- 2>&-"], cwd=self.folder)
+                self.assertEqual(process.returncode, 2)
+
     def test_a_module_that_is_missing_is_named_with_its_package(self):
         # A module in this folder comes before the system's one; a stand-in for matplotlib needs a second one.
         (self.folder / "frame.vtk").touch()

@@ -6,7 +6,7 @@ from functools import partial
 from typing import NoReturn
 
 from sprung_tools.terminal.guarded_process import run_guarded
-from sprung_tools.terminal.program import run_tool
+from sprung_tools.terminal.program import complain, open_outputs, run_tool
 
 # The Debian package of each module that is not Python's own.
 PACKAGES = {
@@ -20,6 +20,7 @@ PACKAGES = {
 
 def run_command(name: str) -> NoReturn:
     """Runs main() of sprung_tools/cli/NAME.py in a process of its own, and exits."""
+    open_outputs()
     run_guarded(partial(load_and_run, name))
 
 
@@ -32,9 +33,8 @@ def load_and_run(name: str) -> NoReturn:
         module = (error.name or "").partition(".")[0]
         if module not in PACKAGES:
             raise
-        print(
+        complain(
             f"{sys.argv[0]}: error: Python's module {module} is not installed: install the Debian package "
-            f"{PACKAGES[module]}, or run tools/setup",
-            file=sys.stderr,
+            f"{PACKAGES[module]}, or run tools/setup"
         )
         sys.exit(2)

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import NoReturn
 
 from sprung_tools.files.last_read import last_file
+from sprung_tools.terminal.program import complain
 
 FORWARDED = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
 FAULTS = {signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL}
@@ -32,7 +33,7 @@ def run_guarded(run: Callable[[], NoReturn]) -> NoReturn:
         sys.exit(code)
     fault = signal.Signals(-code)
     if fault in FAULTS and last_file():
-        print(f"{last_file()}: error: the file is damaged: HDF5 ended with {fault.name}", file=sys.stderr)
+        complain(f"{last_file()}: error: the file is damaged: HDF5 ended with {fault.name}")
         sys.exit(2)
     signal.signal(fault, signal.SIG_DFL)  # ends as the child did
     signal.pthread_sigmask(signal.SIG_SETMASK, previous)

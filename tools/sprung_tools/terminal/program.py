@@ -1,11 +1,11 @@
-"""Common parts of all commands: the form of their help, and their exit codes."""
+"""Common parts of all commands: the form of their help, their outputs, and their exit codes."""
 
 import argparse
 import io
 import os
 import sys
 from collections.abc import Callable
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 from sprung_tools.files.errors import InputError
 
@@ -18,6 +18,29 @@ def make_parser(description: str | None, example: str) -> argparse.ArgumentParse
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
+
+
+def open_outputs() -> None:
+    """Puts /dev/null in place of stdin, stdout and stderr where they are closed, so that no file takes their numbers.
+    Exits with code 2 if stdout is one of them."""
+    closed = set()
+    while (number := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(number, True)
+        closed.add(number)
+    os.close(number)
+    if 2 in closed:
+        sys.stderr = open(2, "w", encoding="utf-8", closefd=False)
+    if 1 in closed:
+        complain(f"{sys.argv[0]}: error: standard output is closed")
+        sys.exit(2)
+
+
+def complain(text: object) -> None:
+    """Prints a line on stderr. Where stderr is full or nobody reads it, the exit code has to tell."""
+    try:
+        print(text, file=sys.stderr, flush=True)
+    except OSError:
+        discard_output(sys.stderr)
 
 
 def run_tool(main: Callable[[], int]) -> NoReturn:
@@ -36,24 +59,24 @@ def run_tool(main: Callable[[], int]) -> NoReturn:
         finally:  # also after the help
             sys.stdout.flush()
     except InputError as error:
-        print(error, file=sys.stderr)
+        complain(error)
         code = 2
     except BrokenPipeError:  # whoever read our output (head, less) has left
-        discard_output()
+        discard_output(sys.stdout)
         code = 0
     except OSError as error:
         if error.strerror is None:
             raise
         if error.filename is None:  # a full disk, where our output goes
-            discard_output()
-        print(f"{error.filename or sys.argv[0]}: error: {error.strerror}", file=sys.stderr)
+            discard_output(sys.stdout)
+        complain(f"{error.filename or sys.argv[0]}: error: {error.strerror}")
         code = 2
     except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
+        complain("interrupted")
         code = 130
     sys.exit(code)
 
 
-def discard_output() -> None:
+def discard_output(stream: TextIO) -> None:
     """Leaves out the output that is not yet written, so that Python does not try again at its end."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
