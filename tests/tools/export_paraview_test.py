@@ -2,6 +2,7 @@
 sprung-dynamics wrote for named points. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS)."""
 
 import os
+import shutil
 import unittest
 from urllib.parse import unquote
 from xml.etree import ElementTree
@@ -15,6 +16,7 @@ from tool_test_case import ROOT, ToolTestCase, make_class_folder, run_program
 from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import open_results
 
+STORED = ROOT / "tests/reduce/data/version_7.h5"
 RUN = ROOT / "dynamics/models/truck/bump.toml"
 CELLS = ("axial_force", "shear_force", "bending_moment")
 RECOVERED = ("axial", "shear", "moment")
@@ -205,6 +207,33 @@ class OfIncompleteFiles(ToolTestCase):
                     self.run_tool("export_paraview", "run.h5", "-o", "a.pvd"), "run.h5: error: ", lacking
                 )
                 self.assertEqual(os.listdir(self.folder), ["run.h5"])
+
+    def test_a_superelement_whose_modes_cannot_be_drawn_is_refused(self):
+        def turn_only(file):
+            file["modes/shape"][:, :2, 1] = 0.0
+
+        def forget_a_shape(file):
+            file["modes/shape"][:, :, 1] = 0.0
+
+        def shorten(sections):
+            def change(file):
+                del file["elements/section"]
+                file["elements/section"] = sections
+
+            return change
+
+        for change, fragment in (
+            (turn_only, "a.h5: error: mode 2 displaces no node: there is nothing to draw"),
+            (forget_a_shape, "a.h5: error: mode 2 displaces no node: there is nothing to draw"),
+            (shorten(np.bytes_("frame")), "a.h5: error: dataset 'elements/section' has shape (), expected "),
+            (shorten(np.array([b"frame"])), "a.h5: error: dataset 'elements/section' has shape (1,), expected "),
+        ):
+            with self.subTest(fragment):
+                shutil.copy(STORED, self.folder / "a.h5")
+                with h5py.File(self.folder / "a.h5", "a") as file:
+                    change(file)
+                self.assert_refuses(self.run_tool("export_paraview", "a.h5", "-o", "a.pvd"), fragment)
+                self.assertEqual(os.listdir(self.folder), ["a.h5"])
 
 
 if __name__ == "__main__":

@@ -162,8 +162,10 @@ class StoredFile:
         if dataset is None or kind not in "SO":
             raise self.fail(f"no dataset '{name}' of strings")
         found = self._layout.find(name)
-        if dataset.shape != () and found and isinstance(found.rule, Texts):
-            self._check_shape(name, dataset, (self._resolve(name, found.rule.size, found.names),))
+        if found and isinstance(found.rule, Texts):
+            size = self._resolve(name, found.rule.size, found.names)
+            if dataset.shape != () or size not in (None, 1):
+                self._check_shape(name, dataset, (size,))
         self._check_size(name, dataset)
         with reading(self.filename, f"dataset '{name}'"):
             return [decode(value) for value in np.atleast_1d(dataset[()])]

@@ -13,6 +13,7 @@ from sprung_tools.paraview.vtu_file import RESULTANTS, in_space
 from sprung_tools.terminal.progress_bar import Progress
 
 MODE_SIZE = 0.1  # of the frame's extent: the largest displacement that a mode is drawn with
+ROUNDING = 1e-12  # of the way that a rotation takes over the frame's extent: smaller displacements are none
 
 
 def export_modes(
@@ -21,7 +22,7 @@ def export_modes(
     """Writes a VTU file for each mode. Returns what the PVD file lists.
 
     wanted: numbers of modes, all if None; magnification: factor of the usual displacements. InputError for a mode that
-    is not there.
+    is not there, or has no displacements to draw.
     """
     with open_hdf5(path, SUPERELEMENT) as file:
         places, _ = read_numbers(file, "nodes/position")
@@ -40,7 +41,10 @@ def export_modes(
     with Progress("modes", len(numbers)) as progress:
         for number in numbers:
             shape = shapes[:, :, number - 1]
-            scale = magnification * MODE_SIZE * extent / np.max(np.abs(shape[:, :2]))
+            largest = np.max(np.abs(shape[:, :2]))
+            if largest <= ROUNDING * extent * np.max(np.abs(shape[:, 2])):  # both are 0, or all nodes only turn
+                raise InputError(f"{path}: error: mode {number} displaces no node: there is nothing to draw")
+            scale = magnification * MODE_SIZE * extent / largest
             turn = np.zeros((len(places), 3))
             turn[:, 2] = scale * shape[:, 2]
             ends = scale * resultants[:, :, number - 1].reshape(-1, 2, 3)
