@@ -72,6 +72,12 @@ class PlotModes(ToolTestCase):
             self.assertEqual((sum(not line for line in lines), sum(bool(line) for line in lines)), (6, 4))
             self.assertEqual(len(re.findall(r'<use [^>]*style="fill: #ffffff; stroke', svg)), 4)
 
+    def test_names_are_plain_text_and_powers_of_ten_stay_formulas(self):
+        write_choice(self.folder / "choice.h5")
+        texts = read_texts(self.draw_svg("choice.h5", "--title", r"$\frac$ for 5 $ or 6 \$"))
+        self.assertIn(r"$\frac$ for 5 $ or 6 \$", texts)
+        self.assertIn(r"$\mathdefault{10^{1}}$", texts)
+
     def test_a_file_without_a_choice_is_refused(self):
         write_choice(self.folder / "fixed.h5", kind="sprung-results", with_choice=False)
         write_choice(self.folder / "blind.h5", with_forcing=False)

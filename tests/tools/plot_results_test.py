@@ -4,6 +4,7 @@ import os
 import re
 import unittest
 
+import h5py
 import matplotlib.image
 import numpy as np
 from synthetic_results import write_results
@@ -32,6 +33,20 @@ class PlotResults(ToolTestCase):
         for text in ("A truck", "rigid", "soft", "heave, mm", "time, s"):
             self.assertIn(text, texts)
         self.assertIn("initial speed 3 m/s", " ".join(texts))
+
+    def test_names_that_are_too_long_for_the_picture_lose_their_middle(self):
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            file.attrs["title"] = 5000 * "a long name "
+        quantity = f"{2000 * 'seat'} 1=bodies/chassis/displacement.y"
+        texts, _ = self.draw_svg(f"{2000 * 'rigid'} one=a.h5", "soft=b.h5", "--show", quantity)
+        for start, end, least, most in (
+            ("a long name ", "long name ", 50, 100), ("rigid", "one", 50, 100), ("seat", "1, mm", 25, 60),
+        ):  # fmt: skip
+            (text,) = [text for text in texts if text.startswith(start)]
+            self.assertRegex(text, f"…[^…]*{re.escape(end)}$")
+            self.assertTrue(least <= len(text) <= most, text)
+        self.assertIn("soft", texts)
+        self.assert_succeeds(self.run_tool("plot_results", "-o", "out.png", "a.h5", "--show", DISPLACEMENT))
 
     def test_each_run_has_a_curve_of_its_own_colour(self):
         _, colours = self.draw_svg("rigid=a.h5", "soft=b.h5", "--show", DISPLACEMENT)

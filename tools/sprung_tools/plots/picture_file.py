@@ -8,7 +8,13 @@ from typing import Any
 
 import matplotlib
 import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axis import Tick
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.legend import Legend
+from matplotlib.text import Text
+from matplotlib.textpath import text_to_path
 from numpy.typing import NDArray
 
 from sprung_tools.files.errors import InputError
@@ -22,6 +28,7 @@ COLOURS = ("#000000", "#0072B2", "#E69F00", "#009E73", "#CC79A7")
 THINNEST, THICKER = 1.0, 0.6  # points: the first line's width, and what each further one has more
 WIDTH, PANEL_HEIGHT, MARGIN_HEIGHT = 8.0, 3.2, 1.4  # inches; at 100 pixels an inch the text is 11 points
 DOTS_PER_INCH = 200
+LONGEST_LINE, LONGEST_ENTRY, LONGEST_UPRIGHT = 7.6, 6.0, 3.5  # inches: of a title, in a legend, of an upright label
 SETTINGS = {"font.size": 11, "axes.titlesize": 12, "axes.spines.top": False, "axes.spines.right": False}
 
 
@@ -55,8 +62,32 @@ def label_unit(unit: str) -> str:
     return unit.replace("^2", "²").replace("^3", "³").replace("^0.5", "^½")
 
 
+def shorten(line: str, font: FontProperties, room: float) -> str:
+    """A line that is at most so wide [points]. Its middle is left out if need be, because the end may be a unit."""
+    shown, kept = line, len(line)
+    widest = font.get_size_in_points()  # of one letter
+    while kept * widest > room and text_to_path.get_text_width_height_descent(shown, font, ismath=False)[0] > room:
+        kept = int(0.9 * kept)
+        shown = f"{line[: kept - kept // 2]}…{line[len(line) - kept // 2 :]}"
+    return shown
+
+
+def make_plain(artist: Artist, longest: float = LONGEST_LINE) -> None:
+    """Names in a picture may hold any letters: draws `$` as it is, and shortens texts that are too long [inches]. It
+    leaves those at ticks, whose powers of ten are formulas."""
+    for part in artist.get_children():
+        if isinstance(part, Text):
+            room = 72.0 * (longest if part.get_rotation() == 0.0 else LONGEST_UPRIGHT)
+            lines = part.get_text().split("\n")
+            part.set_text("\n".join(shorten(line, part.get_fontproperties(), room) for line in lines))
+            part.set_parse_math(False)
+        elif not isinstance(part, Tick):
+            make_plain(part, LONGEST_ENTRY if isinstance(part, Legend) else longest)
+
+
 def write_picture(figure: Figure, path: str | Path) -> None:
     """Writes a picture whole or not at all. InputError if it cannot be written."""
+    make_plain(figure)
     drawn = io.BytesIO()
     try:
         figure.savefig(drawn, format=os.path.splitext(path)[1].lstrip(".") or None, dpi=DOTS_PER_INCH)
