@@ -92,6 +92,15 @@ class PlotResponse(ToolTestCase):
             self.assert_refuses(self.run_tool("plot_response", "-o", "out.png", *arguments), fragment)
         self.assertFalse((self.folder / "out.png").exists())
 
+    def test_spectra_below_0_and_frequencies_out_of_order_are_refused(self):
+        for name, fragment in ((f"outputs/{SEAT}/spectrum", f"dataset 'outputs/{SEAT}/spectrum' holds values below 0"),
+                               ("frequency", "dataset 'frequency' must hold increasing values")):  # fmt: skip
+            write_response(self.folder / "a.h5")
+            with h5py.File(self.folder / "a.h5", "a") as file:
+                file[name][5] = -1.0
+            process = self.run_tool("plot_response", "-o", "out.png", "a.h5", "--show", SEAT, "--spectrum")
+            self.assert_refuses(process, f"a.h5: error: {fragment}")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -9,7 +9,7 @@ from tool_test_case import ROOT, ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results, parse_quantity
-from sprung_tools.files.hdf5_file import NEWEST_VERSIONS, SUPERELEMENT, open_hdf5, read_real, read_texts
+from sprung_tools.files.hdf5_file import NEWEST_VERSIONS, SUPERELEMENT, open_hdf5, read_real, read_text, read_texts
 
 
 class Reading(ToolTestCase):
@@ -217,6 +217,17 @@ class Parts(ToolTestCase):
                 read_real(results.file, "model/bodies/cab", "mass")
             with self.assertRaisesRegex(InputError, "run.h5: error: no attribute 'colour' of 'model/bodies/chassis'"):
                 read_real(results.file, "model/bodies/chassis", "colour")
+
+    def test_a_text_that_is_not_utf_8_is_damaged(self):
+        path = write_results(self.folder / "run.h5")
+        with h5py.File(path, "a") as file:
+            file["model/bodies/chassis"].attrs["superelement"] = np.bytes_(b"\xff")
+            file["model"].attrs["note"] = b"\xff"  # of variable length
+        with open_results(path) as results:
+            for group, name in (("model/bodies/chassis", "superelement"), ("model", "note")):
+                expected = f"run.h5: error: attribute '{name}' of '{group}' is damaged"
+                with self.assertRaisesRegex(InputError, expected):
+                    read_text(results.file, group, name)
 
 
 if __name__ == "__main__":

@@ -271,6 +271,7 @@ def decode(value: Any) -> str:
     if isinstance(value, bytes):
         return value.decode("utf-8").rstrip("\0")
     if isinstance(value, str):
+        value.encode("utf-8")  # bytes that are no UTF-8 are lone surrogates in it, which nothing can print
         return value
     raise ValueError(f"{type(value).__name__} in place of a text")
 
@@ -279,4 +280,4 @@ def simplify(value: Any) -> Any:
     """An attribute as int, float or str if it is one value; else as h5py gives it."""
     if isinstance(value, (np.ndarray, np.generic)) and value.size == 1:
         value = value.item()
-    return decode(value) if isinstance(value, bytes) else value
+    return decode(value) if isinstance(value, (bytes, str)) else value

@@ -33,7 +33,10 @@ class Response(NamedTuple):
             return np.hypot(pairs[:, 0], pairs[:, 1]), unit
         if not self.file.has_dataset(f"{group}/spectrum"):
             raise InputError(f"{self.file.filename}: error: has no spectra: its run file has no [response.road]")
-        return read_numbers(self.file, f"{group}/spectrum")
+        density, unit = read_numbers(self.file, f"{group}/spectrum")
+        if np.any(density < 0.0):
+            raise InputError(f"{self.file.filename}: error: dataset '{group}/spectrum' holds values below 0")
+        return density, unit
 
     def rms(self, output: str) -> float:
         """The r.m.s. of an output, from a file with spectra."""
@@ -59,5 +62,8 @@ def open_responses(arguments: Sequence[str]) -> list[Response]:
     for argument in arguments:
         label, path = split_label(argument)
         file = open_hdf5(path, RESPONSE)
-        responses.append(Response(label or os.path.basename(path), file, read_numbers(file, "frequency")[0]))
+        frequency = read_numbers(file, "frequency")[0]
+        if np.any(np.diff(frequency) <= 0.0):
+            raise InputError(f"{path}: error: dataset 'frequency' must hold increasing values")
+        responses.append(Response(label or os.path.basename(path), file, frequency))
     return responses
