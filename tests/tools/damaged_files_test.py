@@ -15,15 +15,31 @@ from unittest import mock
 
 import h5py
 import numpy as np
+from fatigue_test import write_loads
 from mode_runs import write_adaptive_run
+from plot_modes_test import write_choice
+from plot_response_test import SEAT, write_response
 from small_decks import ABAQUS, NASTRAN
 from synthetic_results import write_results
 from tool_test_case import ROOT, ToolTestCase
 
-from sprung_tools.cli import compare_frequencies, convert_mesh, export_csv, export_paraview, report, report_peaks, ride
+from sprung_tools.cli import (
+    compare_frequencies,
+    convert_mesh,
+    export_csv,
+    export_paraview,
+    fatigue,
+    plot_modes,
+    plot_response,
+    plot_results,
+    report,
+    report_peaks,
+    ride,
+)
 from sprung_tools.files.errors import InputError
+from sprung_tools.plots import picture_file
 
-SUPERELEMENT = ROOT / "tests/reduce/data/version_1.h5"
+SUPERELEMENTS = [ROOT / f"tests/reduce/data/version_{number}.h5" for number in (1, 7)]
 VALUES = (np.nan, np.inf, -1, 0, 10**9, "text", b"\xff\xfe", np.arange(3), np.bytes_("x"))
 NUMBERS = (
     b"9999999999", b"9" * 30, b"-1", b"0", b"1e308", b"nan", b"", b"1 THRU 9999999999", b"*", b"GENERATE", b"1.5-",
@@ -39,6 +55,14 @@ SUPERELEMENT_COMMANDS = (
     (compare_frequencies, "{file} --printed 6.11 6.11"),
     (export_paraview, "{file} -o out.pvd --modes 1 2"),
 )
+# What writes a file, and the commands that draw it.
+DRAWN = (
+    (write_adaptive_run, ((plot_modes, "{file} -o out.png --over-time"),
+                          (plot_results, "{file} -o out.png --mark-road --show bodies/chassis/displacement.y"))),
+    (write_choice, ((plot_modes, "{file} -o out.png"),)),
+    (write_response, [(plot_response, f"{{file}} -o out.png --show {SEAT} {kind}") for kind in ("--spectrum", "--bands")]),
+    (write_loads, ((fatigue, "{file} --category 71 -o out.png"), (fatigue, "{file} --category 71 --json"))),
+)  # fmt: skip
 
 
 def change_attribute(item, rng):
@@ -132,9 +156,9 @@ class Mutants(ToolTestCase):
     def count_refused(self, base, commands, change, seeds):
         """The number of mutants that were refused. base: file that is changed."""
         refused = 0
-        target = self.folder / f"mutant{base.suffix}"
         for seed in seeds:
             rng = random.Random(seed)
+            target = self.folder / f"{base.stem}_{seed}{base.suffix}"  # what a command leaves open is not written again
             shutil.copy(base, target)
             change(target, rng)
             module, arguments = rng.choice(commands)
@@ -151,7 +175,17 @@ class Mutants(ToolTestCase):
             self.assertGreater(self.count_refused(self.folder / name, RUN_COMMANDS, change_structure, range(120)), 20)
 
     def test_a_superelement_with_something_changed(self):
-        self.assertGreater(self.count_refused(SUPERELEMENT, SUPERELEMENT_COMMANDS, change_structure, range(100)), 3)
+        for path, seeds in zip(SUPERELEMENTS, (range(100), range(1250, 1300))):
+            self.assertGreater(self.count_refused(path, SUPERELEMENT_COMMANDS, change_structure, seeds), 3)
+
+    def test_files_that_are_drawn_with_something_changed(self):
+        self.enterContext(mock.patch.object(picture_file, "DOTS_PER_INCH", 20))  # saves time
+        refused = 0
+        for write, commands in DRAWN:
+            base = self.folder / f"{write.__name__}.h5"
+            write(base)
+            refused += self.count_refused(base, commands, change_structure, range(5))
+        self.assertGreater(refused, 6)
 
     def test_a_results_file_with_damaged_bytes(self):
         write_results(self.folder / "run.h5")
