@@ -37,6 +37,7 @@ class PlotResults(ToolTestCase):
     def test_names_that_are_too_long_for_the_picture_lose_their_middle(self):
         with h5py.File(self.folder / "a.h5", "a") as file:
             file.attrs["title"] = 5000 * "a long name "
+            file["model/resolved/road"].attrs["file"] = 5000 * "folder/"
         quantity = f"{2000 * 'seat'} 1=bodies/chassis/displacement.y"
         texts, _ = self.draw_svg(f"{2000 * 'rigid'} one=a.h5", "soft=b.h5", "--show", quantity)
         for start, end, least, most in (

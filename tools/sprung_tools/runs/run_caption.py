@@ -19,7 +19,8 @@ def make_caption(results: Sequence[ResultsFile], remarks: Sequence[str] = ()) ->
     lists = [list_parts(one) for one in results]
     shared = [part for part in lists[0] if all(part in other for other in lists[1:])]
     unbroken = [part.replace(" ", "\N{NO-BREAK SPACE}") for part in (*shared, *remarks)]
-    return textwrap.fill("; ".join(unbroken), LINE_LENGTH).replace("\N{NO-BREAK SPACE}", " ")
+    lines = textwrap.fill("; ".join(unbroken), LINE_LENGTH, break_long_words=False)
+    return lines.replace("\N{NO-BREAK SPACE}", " ")
 
 
 def list_parts(results: ResultsFile) -> list[str]:
