@@ -46,7 +46,7 @@ spring = { polynomial = [0.0, 2e5] }
 
 class AssemblyWarnings(DynamicsTestCase):
     def write_carriage(self, x=0.0, wheel=0.0):
-        """@param x: where the carriage is drawn; its motion begins at 0   @param wheel: where its wheel is, from there"""
+        """x: where the carriage is drawn, whose motion begins at 0; wheel: where its wheel is, from there."""
         vehicle = CARRIAGE.replace("[0.0, 1.0]\n[bodies.wheel]", f"[{x}, 1.0]\n[bodies.wheel]")
         vehicle = vehicle.replace("position = [0.0, 0.3]", f"position = [{x + wheel}, 0.3]")
         (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
