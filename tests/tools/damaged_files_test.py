@@ -60,7 +60,8 @@ DRAWN = (
     (write_adaptive_run, ((plot_modes, "{file} -o out.png --over-time"),
                           (plot_results, "{file} -o out.png --mark-road --show bodies/chassis/displacement.y"))),
     (write_choice, ((plot_modes, "{file} -o out.png"),)),
-    (write_response, [(plot_response, f"{{file}} -o out.png --show {SEAT} {kind}") for kind in ("--spectrum", "--bands")]),
+    (write_response, ((plot_response, f"{{file}} -o out.png --show {SEAT} --spectrum"),
+                      (plot_response, f"{{file}} -o out.png --show {SEAT} --bands"))),
     (write_loads, ((fatigue, "{file} --category 71 -o out.png"), (fatigue, "{file} --category 71 --json"))),
 )  # fmt: skip
 
