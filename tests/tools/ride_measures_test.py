@@ -275,7 +275,7 @@ class Tool(ToolTestCase):
         (run,) = json.loads(process.stdout)["runs"]
         self.assertAlmostEqual(run["measures"]["points/body.seat/peak"]["value"], SEAT_AMPLITUDE)
         self.assertIsNone(run["measures"]["points/body.seat/crest_factor"]["value"])
-        self.assertTrue(run["remarks"][0].startswith(reason))
+        self.assertTrue(run["remarks"][0].startswith(f"body.seat, body.center_of_mass: {reason}"))
 
     def test_the_rounding_of_a_vehicle_at_rest_is_no_vibration(self):
         with h5py.File(write_ride_results(self.folder / "a.h5"), "a") as file:
