@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -51,13 +50,29 @@ TimeFunction read_step(const support::TomlTable& table, std::string_view unit) {
   return TimeFunction::smooth_step(step);
 }
 
+// The integrators join times that lie closer, and would lose a pulse between them.
+// @param times  ascending, or equal for a jump
+void require_lengths(const support::TomlValue& value, std::span<const double> times) {
+  constexpr double kShortest = 1e-9;  // s
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double length = times[i] - times[i - 1];
+    if (length == 0.0 || length >= kShortest) continue;
+    throw value.error(fmt::format(
+        "changes at {:.15g} s and again {:.3g} s later, expected at least {:g} s; give a shorter pulse as "
+        "a longer one of the same area",
+        times[i - 1], length, kShortest));
+  }
+}
+
 TimeFunction read_table(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
   if (use == TimeFunctionUse::kMotion) {
     const PointList points = read_point_list(value, support::any("s"), support::any(unit));
+    require_lengths(value, points.x);
     return TimeFunction::spline(points.x, points.y);
   }
   const PointList points =
       read_point_list(value, support::any("s"), support::any(unit), PointOrder::kWithJumps);
+  require_lengths(value, points.x);
   return TimeFunction::lines(points.x, points.y);
 }
 
@@ -172,6 +187,7 @@ TimeFunction read_pieces(const support::TomlValue& value, std::string_view unit,
     oscillations += parts.back().oscillations().size();
     check_size(value, oscillations);
   }
+  require_lengths(value, ends);
   return ends.empty() ? parts.front() : TimeFunction::pieces(ends, parts);
 }
 
@@ -200,28 +216,11 @@ TimeFunction read_function(const support::TomlValue& value, std::string_view uni
   return read_polynomial(content, unit);
 }
 
-// The integrators join breaks that lie closer than this, which rounding of one time may have parted.
-void check_lengths(const support::TomlValue& value, const TimeFunction& f) {
-  constexpr double kShortest = 1e-9;  // s
-  constexpr double kRounding = 1e-14;
-  const std::span<const double> breaks = f.breaks();
-  for (std::size_t i = 1; i < breaks.size(); ++i) {
-    const double length = breaks[i] - breaks[i - 1];
-    if (length >= kShortest || length <= kRounding * std::abs(breaks[i])) continue;
-    throw value.error(
-        fmt::format("changes at {:.15g} s and again {:.3g} s later, expected at least {:g} s between "
-                    "changes; give a shorter "
-                    "pulse as a longer one of the same area",
-                    breaks[i - 1], length, kShortest));
-  }
-}
-
 }  // namespace
 
 TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use,
                                 HistoryFiles& histories) {
   TimeFunction f = read_function(value, unit, {use, histories, unit});
-  check_lengths(value, f);
   if (use == TimeFunctionUse::kForce) return f;
   const std::optional<TimeFunction::Jump> jump = f.find_jump();
   if (!jump) return f;

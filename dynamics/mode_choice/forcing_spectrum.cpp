@@ -154,7 +154,9 @@ ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownF
   spectrum.period = forcing.duration + settling;
   const double wanted = std::min(2.0 * fineness * highest * spectrum.period, kMostSamples);
   const auto n = static_cast<Eigen::Index>(std::bit_ceil(static_cast<std::size_t>(std::ceil(wanted)) + 16));
-  const auto m = std::min(static_cast<Eigen::Index>(std::ceil(highest * spectrum.period)), n / 4);
+  // The highest frequency may be that of a line, whose number must not depend on rounding.
+  const double last_line = std::ceil((1.0 - 1e-9) * highest * spectrum.period);
+  const auto m = std::min(static_cast<Eigen::Index>(last_line), n / 4);
 
   spectrum.road = Eigen::VectorXcd::Zero(m);
   if (forcing.road != nullptr && forcing.speed > 0.0) {
