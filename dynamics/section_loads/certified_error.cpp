@@ -13,6 +13,7 @@ namespace {
 
 constexpr Eigen::Index kBlock = 512;        // outputs that are transformed together
 constexpr double kLeastAcceleration = 0.1;  // m/s², r.m.s. below which no share is formed
+constexpr long kLeastBlocks = 4;            // for the share of a reported point above the band
 constexpr double kHeld = 1e-6;  // r.m.s., of the largest, of points that a joint keeps from moving
 
 int find_row(const reduce::Certificate& certificate, const reduce::Superelement& superelement, int node,
@@ -175,6 +176,7 @@ CertifiedShare CertifiedError::find_worst() const {
     worst.missing = share;
     worst.above = std::sqrt(above[marker] / total[marker]);
   }
+  if (num_blocks_ < kLeastBlocks) return worst;
   for (const Eigen::Index marker : reported_) {
     if (std::sqrt(total[marker] / blocks) <= std::max(kLeastAcceleration, kHeld * largest)) continue;
     const double share_above = std::sqrt(above[marker] / total[marker]);

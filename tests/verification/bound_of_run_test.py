@@ -82,8 +82,8 @@ class Bound(VerificationCase):
         shutil.copy(Path(TRUCK_SUPERELEMENTS) / "long_arm.h5", self.folder)
         found = {}
         for name in ("band", "wide", "truth"):
-            settings = (f"vehicle.bodies.chassis.superelement={name}", 'modes.chassis="all"', "duration=1.2",
-                        "statistics.to=1.2")  # fmt: skip
+            settings = (f"vehicle.bodies.chassis.superelement={name}", 'modes.chassis="all"', "duration=1.5",
+                        "statistics.to=1.5")  # fmt: skip
             words = [word for setting in settings for word in ("--set", setting)]
             found[name] = self.run_to_results(BUMP, *words, superelements=self.folder)
         series = "points/chassis.seat/acceleration"
