@@ -146,10 +146,7 @@ void find_widest_motion_gap(const Model& model, const Eigen::VectorXd& phi, Asse
     const double gap = phi[model.joint_rows[j]];
     const std::string unit(joint.constraint_unit(0));
     const double natural = std::abs(gap) / (unit == "m" ? model.length_scale : 1.0);
-    if (natural <= report.motion_gap) continue;
-    report.motion_gap = natural;
-    report.open_motion = fmt::format("'{}' begins {:.3g} {} {}", joint.name, std::abs(gap), unit,
-                                     gap > 0.0 ? "below" : "above");
+    if (natural > report.motion_gap.natural_size) report.motion_gap = {joint.name, unit, gap, natural};
   }
 }
 

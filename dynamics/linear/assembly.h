@@ -6,6 +6,13 @@
 
 namespace sprung::dynamics {
 
+/// How far from the drawing a prescribed motion begins.
+struct MotionGap {
+  std::string motion, unit;   ///< its name; "m" or "rad"
+  double above = 0.0;         ///< the coordinate as drawn, less the value of the motion at the start
+  double natural_size = 0.0;  ///< |above|, over the length scale or 1 rad
+};
+
 /// How the constraints were satisfied at the start.
 struct AssemblyReport {
   double largest_movement = 0.0;  ///< of any marker [m]
@@ -13,8 +20,7 @@ struct AssemblyReport {
   double residual = 0.0;          ///< largest |φ| afterwards
   double widest_gap = 0.0;        ///< of a joint before, a distance [m]
   std::string open_joint;         ///< which joint
-  double motion_gap = 0.0;  ///< of the prescribed motion that begins farthest from the drawing [natural size]
-  std::string open_motion;  ///< which one, and how far: "'cruise' begins 1.6 m below"
+  MotionGap motion_gap;           ///< the largest one, in natural sizes
 };
 
 /// Moves the bodies from the positions of the input file so that every joint closes, with the least movement

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 
 #include "dynamics/element_input/point_reference.h"
@@ -105,12 +106,12 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
                                                                             : worst.acceleration.coordinate;
   const auto place = static_cast<std::size_t>(adaptivity.full->body_coordinate(coordinate).body);
   const std::string& body = adaptivity.full->bodies[place].name;
-  std::vector<std::string> points = list_rows_of(body, statistics);
+  std::vector<std::string> rows = list_rows_of(body, statistics);
   if (missing.point >= 0) {
     const std::string named = name_missing_point(adaptivity, missing);
-    if (std::find(points.begin(), points.end(), named) == points.end()) points.push_back(named);
+    if (std::find(rows.begin(), rows.end(), named) == rows.end()) rows.push_back(named);
   }
-  warnings.push_back({kSummary, points, text});
+  warnings.push_back({kSummary, rows, text});
   warnings.push_back({kModes, {body}, text});
 }
 
@@ -230,11 +231,12 @@ std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyRe
   };
   if (std::string moved = describe_far_movement(model, assembly); !moved.empty()) {
     warn(std::move(moved));
-  } else if (assembly.motion_gap > kFarMotion) {
+  } else if (const MotionGap& gap = assembly.motion_gap; gap.natural_size > kFarMotion) {
     warn(fmt::format(
-        "the prescribed motion {} its value in the drawing, so that bodies were moved and turned to "
-        "meet it, and what is \"as-drawn\" is as it is there; begin its function at the drawn value",
-        assembly.open_motion));
+        "the prescribed motion '{}' begins {:.3g} {} {} its value in the drawing, so that bodies were "
+        "moved and turned to meet it, and what is \"as-drawn\" is as it is there; begin its function at "
+        "the drawn value",
+        gap.motion, std::abs(gap.above), gap.unit, gap.above > 0.0 ? "below" : "above"));
   }
   if (equilibrium && !equilibrium->stable && start.q == equilibrium->q) {
     warn(

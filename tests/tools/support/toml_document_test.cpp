@@ -142,6 +142,14 @@ TEST_CASE("keys of many parts are refused, and what only has many points is none
   CHECK(parse_error("x = 1\n  " + repeat("a.", 20000) + "b = 1\n") == "v.toml:2:3: " + expected);
   CHECK(parse_error("[" + repeat("\"a.a\" . ", 300) + "b]\n") == "v.toml:1:2: " + expected);
   CHECK(parse_error("x = {" + repeat("'a'.", 256) + "b = 1}\n") == "v.toml:1:6: " + expected);
+  const std::string deep = repeat("a.", 300) + "b = 1";
+  for (const char* value :
+       {R"("\"")", R"("\\")", R"('\')", R"("a # b")", R"('''it's''')", R"(""" "a" \""" ''""""")"}) {
+    INFO(value);
+    CHECK(parse_error("x = { y = " + std::string(value) + ", " + deep + "}\n") ==
+          "v.toml:1:" + std::to_string(13 + std::string(value).size()) + ": " + expected);
+    CHECK_NOTHROW(TomlDocument::parse("x = " + std::string(value) + "\n", "v.toml"));
+  }
   CHECK_NOTHROW(TomlDocument::parse(repeat("a.", 255) + "b = 1\n", "v.toml"));
   CHECK_NOTHROW(TomlDocument::parse(
       "# " + repeat(".", 999) + "\nx = [" + repeat("1.5, ", 999) + "2]\ny = \"" + repeat(".", 999) + "\"\n",

@@ -16,6 +16,26 @@ bool is_bare_key_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
+// The last character of the string that begins with the quote at `first`; where it has no end, that of its
+// line or of the text.
+std::size_t find_end_of_string(std::string_view text, std::size_t first) {
+  const char quote = text[first];
+  const auto has_three = [&](std::size_t i) { return text.substr(i, 3) == std::string(3, quote); };
+  const bool is_long = has_three(first);
+  for (std::size_t i = first + (is_long ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (is_long && has_three(i)) {
+      // Up to two further quotes belong to the string.
+      for (int more = 0; more < 2 && text.substr(i + 3, 1) == std::string(1, quote); ++more) ++i;
+      return i + 2;
+    } else if (!is_long && (text[i] == quote || text[i] == '\n')) {
+      return i;
+    }
+  }
+  return text.size() - 1;
+}
+
 // At most 40 bytes, cut between code points.
 std::string shortened(std::string_view text) {
   constexpr std::size_t kLongest = 40;
@@ -84,17 +104,12 @@ std::size_t find_deep_key(std::string_view text, std::size_t most) {
   bool is_in_key = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    const std::size_t first = i;
     const bool is_quote = c == '"' || c == '\'';
-    if (c == '#') {
-      i = std::min(text.find('\n', i), text.size());
-    } else if (is_quote) {
-      if (!is_in_key) begin = i;
-      const std::size_t end = text.find(c, i + 1);
-      if (end == std::string_view::npos) return end;
-      i = end;
-    }
+    if (c == '#') i = std::min(text.find('\n', i), text.size());
+    if (is_quote) i = find_end_of_string(text, i);
     if (is_quote || is_bare_key_character(c) || c == '.') {
-      if (!is_in_key && !is_quote) begin = i;
+      if (!is_in_key) begin = first;
       is_in_key = true;
       dots += c == '.' ? 1 : 0;
       if (dots >= most) return begin;

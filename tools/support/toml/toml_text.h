@@ -23,7 +23,7 @@ std::string format_number(double value);
 std::string describe_unreadable_number(std::string_view text);
 
 /// Where a key of more than `most` parts begins, as its offset: `a.b.c` has three. None is npos. Comments and
-/// strings are passed over, but for strings of several lines that contain quotes.
+/// strings are passed over.
 std::size_t find_deep_key(std::string_view text, std::size_t most);
 
 }  // namespace sprung::support
