@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "dynamics/bodies/body.h"
 #include "dynamics/bodies/body_equations.h"
@@ -29,12 +30,14 @@ class BodyMass {
   /// constant, and neither weight nor rotation causes a torque.
   bool is_constant() const { return constant_; }
 
-  /// Diagonal entry of the metric: of M, with a stand-in where the body has no mass or no inertia.
+  /// Diagonal entry of the metric: of M, but not below the body's least one.
   double metric(int coordinate) const {
-    return M_(coordinate, coordinate) + (coordinate < 3 ? stand_in_[coordinate] : 0.0);
+    const double mass = M_(coordinate, coordinate);
+    return coordinate < 3 ? std::max(mass, body_->least_metric[coordinate]) : mass;
   }
 
-  /// x ← M⁻¹ x, with the metric for M where the body has no mass or no inertia.  @param x  3+n values
+  /// x ← M⁻¹ x, with the stand-ins added to M where the body has no mass or no inertia.
+  /// @param x  3+n values
   void solve(double* x) const {
     if (constant_) {
       for (int i = 0; i < 3; ++i) x[i] *= C_inverse_(i, i);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kSameRate = 1e-6;        // share of a rate that counts as no contradiction
 constexpr double kNoRate = 1e-12;         // m/s or rad/s that counts as none
-constexpr double kDetermined = 1e-9;      // mobility left by the joints, of that without joints
+constexpr double kDetermined = 1e-11;     // mobility left by the joints, of that without joints
 constexpr double kSingularPivot = 1e-12;  // of the largest
 
 // The velocities that joints allow, and the least changes among them (linear, eq. 17).

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -13,21 +14,23 @@ namespace sprung::dynamics {
 namespace {
 
 // Sets what stands in for masses and inertias of 0: a millionth of the smallest mass, but at least so much of
-// the usual mass that arithmetic of 16 digits can do with it.
+// the median one that arithmetic of 16 digits can do with it. And the least metric, a share of the mean mass.
 void set_stand_ins(Model& model) {
-  constexpr double kShare = 1e-6;
+  constexpr double kShare = 1e-6, kLightest = 1e-9;
   std::vector<double> masses;
   for (const Body& body : model.bodies) {
     if (body.mass > 0.0) masses.push_back(body.mass);
   }
   std::sort(masses.begin(), masses.end());
-  const double mass =
-      masses.empty() ? 1.0 : kShare * std::max(masses.front(), kShare * masses[masses.size() / 2]);
-  const double inertia = mass * model.length_scale * model.length_scale;
+  if (masses.empty()) masses = {1.0};
+  const double mean = std::reduce(masses.begin(), masses.end()) / static_cast<double>(masses.size());
+  const double mass = kShare * std::max(masses.front(), kShare * masses[masses.size() / 2]);
+  const double squared_length = model.length_scale * model.length_scale;
   model.has_massless_bodies = false;
   for (Body& body : model.bodies) {
     body.stand_in_mass = body.mass > 0.0 ? 0.0 : mass;
-    body.stand_in_inertia = body.second_moment > 0.0 ? 0.0 : inertia;
+    body.stand_in_inertia = body.second_moment > 0.0 ? 0.0 : mass * squared_length;
+    body.least_metric = Eigen::Vector3d(1.0, 1.0, squared_length) * (kLightest * mean);
     model.has_massless_bodies |= body.stand_in_mass > 0.0 || body.stand_in_inertia > 0.0;
   }
 }

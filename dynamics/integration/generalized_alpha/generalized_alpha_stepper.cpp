@@ -37,7 +37,9 @@ const char* remark_on_radius(double spectral_radius) {
 
 [[noreturn]] void throw_open_joints(double time) {
   throw support::NumericalError(fmt::format(
-      "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
+      "the joints cannot be closed at t = {:.9g} s; look at the positions just before that time, where the "
+      "mechanism may come to a singular one or to the end of its travel",
+      time));
 }
 
 }  // namespace

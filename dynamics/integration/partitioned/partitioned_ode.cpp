@@ -76,11 +76,14 @@ void PartitionedOde::throw_not_finite(double time) const {
 
 void PartitionedOde::throw_not_closed(double time) {
   throw support::NumericalError(fmt::format(
-      "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
+      "the joints cannot be closed at t = {:.9g} s; look at the positions just before that time, where the "
+      "mechanism may come to a singular one or to the end of its travel",
+      time));
 }
 
 void PartitionedOde::close_joints(double time, std::span<const double> y) {
-  if (!evaluate_motion(time, y)) throw_not_closed(time);
+  // A second search starts at the accepted motion, to which the first has gone back.
+  if (!evaluate_motion(time, y) && !evaluate_motion(time, y)) throw_not_closed(time);
 }
 
 void PartitionedOde::calc_accelerations(double time, std::span<const double> y) {
