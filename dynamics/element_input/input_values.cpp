@@ -24,8 +24,10 @@ PointList read_point_list(const support::TomlValue& value, const support::Quanti
     }
     const double x = row.items()[0].number(x_unit);
     if (!continues_at(points.x, x, order)) {
-      throw row.error(
-          fmt::format("must ascend: {} {} comes after {} {}", x, x_unit.unit, points.x.back(), x_unit.unit));
+      const bool is_third = order == PointOrder::kWithJumps && x == points.x.back();
+      throw row.error(fmt::format("must ascend{}: {} {} comes after {} {}",
+                                  is_third ? ", and at a jump two are equal, not three" : "", x, x_unit.unit,
+                                  points.x.back(), x_unit.unit));
     }
     points.x.push_back(x);
     points.y.push_back(row.items()[1].number(y_unit));

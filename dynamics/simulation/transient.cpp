@@ -150,19 +150,23 @@ class TransientRun {
       const double longest = std::min(options_.largest_step, stepper_->calc_longest_step());
       const Integrator::StepResult result = stepper_->step(longest);
       const double time = stepper_->time();
-      const bool at_break = result == Integrator::StepResult::kEnded && smooth_end_ < options_.end_time;
+      const bool at_end = result == Integrator::StepResult::kEnded && smooth_end_ >= options_.end_time;
+      const bool at_break = result == Integrator::StepResult::kEnded && next_break_ <= smooth_end_;
       ++work_;
       const auto first_output = reached_.next_output;
       write_outputs(at_break ? time - 2.0 * output_tolerance() : time);
       if (reached_.next_output == first_output && work_ % kStepsPerObservation == 0) observe_between();
       if (options_.on_step && !options_.on_step(time)) return;
-      if (result == Integrator::StepResult::kEnded) {
-        if (!at_break) break;
-        continue_from(smooth_end_);
-        write_outputs(time);  // a function that jumps has its later value
-      } else if (result == Integrator::StepResult::kSwitched) {
+      if (at_break) {  // a function that jumps has its later value
+        begin_piece(smooth_end_);
+        if (!at_end) stepper_->resume(time, smooth_end_);
+        write_outputs(time);
+      }
+      if (at_end) break;
+      if (result == Integrator::StepResult::kSwitched) {
         count_switch(time);
-        continue_from(time);
+        begin_piece(time);
+        stepper_->resume(time, smooth_end_);
       } else if (work_ >= options_.checkpoint_interval && !(adaptive_ && adaptive_->ends_at_rest())) {
         work_ = 0;
         make_checkpoint();
@@ -173,17 +177,17 @@ class TransientRun {
 
   // Functions of time are smooth from `time` to the next of their breaks, where the integrator has to stop.
   void find_end_of_smoothness(double time) {
-    smooth_end_ = std::min(options_.end_time, piece().update_next_break(time));
+    next_break_ = piece().update_next_break(time);
+    smooth_end_ = std::min(options_.end_time, next_break_);
   }
 
-  // Continues with the branches that hold at the end of the last step.
-  void continue_from(double time) {
+  // Takes the functions of time and the branches that hold from the end of the last step on.
+  void begin_piece(double time) {
     find_end_of_smoothness(time);
     stepper_->evaluate(time, SystemStepper::Level::kMotion);
     for (const BranchChange& change : piece().update_branches(stepper_->equations().terms())) {
       report_event({time, "switch", change.element, change.text});
     }
-    stepper_->resume(time, smooth_end_);
   }
 
   void count_switch(double time) {
@@ -252,7 +256,8 @@ class TransientRun {
   std::optional<ModeMonitor> monitor_;  // of modes left out, if asked for
   std::unique_ptr<SystemStepper> stepper_;
   const AdaptiveStepper* adaptive_ = nullptr;  // the stepper, where modes change
-  double smooth_end_ = 0.0;                    // the next break of a function of time, or the end
+  double next_break_ = 0.0;                    // of a function of time
+  double smooth_end_ = 0.0;                    // the next break, or the end
   long work_ = 0;                              // steps and outputs since the last checkpoint
 };
 
