@@ -66,7 +66,10 @@ Json make_response_json(const ResponseResult& result) {
     outputs[result.names[i]] = std::move(output);
   }
   Json report{{"remarks", result.remarks}, {"frequency", result.frequency_hz}};
-  if (result.has_road()) report["road_rms"] = result.road_rms;
+  if (result.has_road()) {
+    report["road_rms"] = result.road_rms;
+    report["road_spectrum"] = std::vector<double>(result.road_spectrum.begin(), result.road_spectrum.end());
+  }
   report["outputs"] = std::move(outputs);
   return report;
 }

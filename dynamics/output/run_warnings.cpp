@@ -186,9 +186,10 @@ void warn_of_coarse_outputs(const Model& model, const RunStatistics& statistics,
 
 // A text with the name of the file alone in the place before it, `path:line:column: `, if it begins with one.
 std::string remove_folders(const std::string& text) {
-  static const std::regex place("^.*?:[0-9]+(:[0-9]+)?: ");
+  static const std::regex place(".*?:[0-9]+(:[0-9]+)?: ");
   std::smatch found;
-  if (!std::regex_search(text, found, place)) return text;
+  // From the beginning alone: elsewhere the search would take time of the text's length squared.
+  if (!std::regex_search(text, found, place, std::regex_constants::match_continuous)) return text;
   const std::size_t separator = text.rfind('/', static_cast<std::size_t>(found.length()));
   return separator == std::string::npos ? text : text.substr(separator + 1);
 }

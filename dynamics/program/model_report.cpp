@@ -60,8 +60,16 @@ Json describe_road(const RoadDescription& road) {
     parameters = {{"start", road.start}, {"length", road.length}, {"height", road.height}};
   if (!road.file.empty()) parameters = {{"start", road.start}, {"file", road.file.string()}};
   if (road.random) {
-    parameters = {{"start", road.start}, {"length", road.random->length}, {"seed", road.random->seed}};
-    if (road.random->rms > 0.0) parameters["rms"] = road.random->rms;
+    parameters = {{"start", road.start},
+                  {"length", road.random->length},
+                  {"seed", road.random->seed},
+                  {"band", {road.random->lowest, road.random->highest}}};
+    const double density = road.random->spectrum.density(RoadSpectrum::kReferenceWavenumber);
+    if (road.random->rms > 0.0) {
+      parameters["rms"] = road.random->rms;
+    } else if (density > 0.0) {
+      parameters["density"] = density;
+    }
   }
   return parameters;
 }

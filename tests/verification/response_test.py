@@ -154,6 +154,7 @@ class QuarterCar(ResponseCase):
         inside = response.frequency <= 20.0
         self.assert_close(response.rms(name) ** 2,
                           np.trapz(response.spectrum(name)[inside], response.frequency[inside]), relative=5e-3)
+        self.assert_close(np.array(response.report["road_spectrum"]), road, relative=1e-12)
         # The road's own mean square: G n₀² V (1/f₁ − 1/f₂) with the range from 0.1 Hz to where the band ends, 20 Hz.
         self.assert_close(response.report["road_rms"] ** 2, 256e-8 * 20.0 * (1.0 / 0.1 - 1.0 / 20.0), relative=1e-7)
 

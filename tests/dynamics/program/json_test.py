@@ -28,6 +28,8 @@ volume = 0.005
 load = "static"
 """
 
+ROAD = ("--set", "road={class = 'D', length = 50.0, start = 2.0, seed = 7}")
+
 
 def list_paths(value, path=""):
     """The paths of all single values."""
@@ -62,15 +64,24 @@ class JsonOfCommands(DynamicsTestCase):
         self.assertEqual(list(printed)[: len(HEAD)], HEAD)
         return list_paths(printed)
 
+    def test_a_random_road_is_told_by_its_numbers(self):
+        # ISO 8608: class D has 1024e-6 m³ at 0.1 1/m, and spectra are reported from 0.011 to 2.83 1/m.
+        words = [PROGRAM, "run", "--dry-run", QUARTER_CAR, "--json", "--quiet", *ROAD]
+        parameters = json.loads(run_program(words, cwd=self.folder, check=True).stdout)["parameters"]
+        self.assertEqual(parameters["road"], "random")
+        found = parameters["road_parameters"]
+        self.assertAlmostEqual(found.pop("density"), 1024e-6, delta=1e-12)
+        self.assertEqual(found, {"start": 2.0, "length": 50.0, "seed": 7, "band": [0.011, 2.83]})
+
     def test_every_path_is_documented_and_every_documented_one_occurs(self):
         short = ("--set", "duration=0.1", "--set", "modes.chassis=2")
-        # Modes chosen, the length of a spring and the pressure of an air spring found, an unlikely inertia.
+        # A random road; modes chosen; the length of a spring and the pressure of an air spring; an unlikely inertia.
         vehicle = (self.folder / "vehicle.toml").read_text(encoding="utf-8")
         static = "free_length = { static = 0.39 }"
         (self.folder / "static.toml").write_text(
             vehicle.replace("free_length = 0.458", static, 1) + AIR_SPRING, encoding="utf-8")  # fmt: skip
         of_all = ("bump.toml", "--set", 'vehicle="static.toml"', "--set", 'modes.chassis="auto"', "--set",
-                  "mode_choice.tolerance=0.2", "--set", "vehicle.bodies.front_axle.inertia=1e7")  # fmt: skip
+                  "mode_choice.tolerance=0.2", "--set", "vehicle.bodies.front_axle.inertia=1e7", *ROAD)  # fmt: skip
         runs = {
             "run": [("bump.toml", *short, "-o", "r.h5", "--set", "output.size=0.01"), (QUARTER_CAR, *short[:2])],
             "run --dry-run": [(QUARTER_CAR, "--set", "output.size=0.01")],
