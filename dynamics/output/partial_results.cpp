@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The first bytes of a packed state: its layout. Increase the number with every change of what is packed.
-constexpr std::uint64_t kStateLayout = 0x7370'7275'6e67'0003;  // "sprung", 3
+constexpr std::uint64_t kStateLayout = 0x7370'7275'6e67'0004;  // "sprung", 4
 
 support::Hdf5Reader open_partial(const fs::path& results) {
   const fs::path partial = partial_name(results);

@@ -59,7 +59,8 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
     : model_(&model),
       window_(window),
       sections_(sections),
-      phi_(Eigen::VectorXd::Zero(model.num_constraints)) {
+      phi_(Eigen::VectorXd::Zero(model.num_constraints)),
+      first_kinetic_(Eigen::VectorXd::Zero(2 + 3 * static_cast<Eigen::Index>(model.bodies.size()))) {
   SystemTerms terms(model);
   terms.update_positions(0.0, reference_q);
   for (const std::string& name : points) {
@@ -89,8 +90,11 @@ void RunStatistics::add(const Snapshot& snapshot) {
     constraint_violation_ = std::max(constraint_violation_, phi_.lpNorm<Eigen::Infinity>());
   }
   const Energy& now = snapshot.energy.stored;
-  if (!has_first_) first_ = now;
-  has_first_ = true;
+  if (!has_first_) {
+    first_ = now;
+    calc_kinetic_parts(terms, first_kinetic_);
+    has_first_ = true;
+  }
   add_to_energy_size(now, terms);
   // Term by term, so that a large potential far from the origin causes no cancellation.
   const double imbalance = (now.kinetic - first_.kinetic) + (now.strain - first_.strain) +
@@ -140,7 +144,8 @@ bool RunStatistics::is_counted(double time) const {
 }
 
 void RunStatistics::add_to_energy_size(const Energy& now, const SystemTerms& terms) {
-  const double change = std::abs(now.kinetic - first_.kinetic) + std::abs(now.strain - first_.strain) +
+  calc_kinetic_parts(terms, kinetic_);
+  const double change = (kinetic_ - first_kinetic_).lpNorm<1>() + std::abs(now.strain - first_.strain) +
                         std::abs(now.gravity - first_.gravity) + std::abs(now.spring - first_.spring);
   // Lower bounds: almost at rest, the changes are rounding errors of the terms; in steady rotation they are
   // errors of the integration.
@@ -199,6 +204,7 @@ void RunStatistics::transfer(Bytes& bytes, Statistics& statistics) {
   bytes.transfer(statistics.has_first_);
   auto& first = statistics.first_;
   for (auto* energy : {&first.kinetic, &first.strain, &first.gravity, &first.spring}) bytes.transfer(*energy);
+  bytes.transfer(statistics.first_kinetic_);
   bytes.transfer(statistics.largest_imbalance_);
   bytes.transfer(statistics.largest_change_);
 }
@@ -208,7 +214,9 @@ void RunStatistics::save(support::ByteWriter& bytes) const {
 }
 
 void RunStatistics::restore(support::ByteReader& bytes) {
+  const Eigen::Index num_parts = first_kinetic_.size();
   transfer(bytes, *this);
+  if (first_kinetic_.size() != num_parts) throw support::DamagedBytes();
 }
 
 }  // namespace sprung::dynamics

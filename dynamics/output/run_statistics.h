@@ -106,6 +106,7 @@ class RunStatistics {
   Eigen::VectorXd phi_;  // constraint residual
   bool has_first_ = false;
   Energy first_;
+  Eigen::VectorXd first_kinetic_, kinetic_;  // parts, see calc_kinetic_parts
   double largest_imbalance_ = 0.0, largest_change_ = 0.0;
 };
 

@@ -1,10 +1,14 @@
 // The fast evaluator of the equations against the plain one, on general states of the flexible truck.
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <vector>
 
 #include "dynamics/road/bump_road.h"
+#include "dynamics/road/flat_road.h"
+#include "dynamics/system/energy.h"
 #include "dynamics/system/partitioned_equations.h"
 #include "tests/catch.h"
 #include "tests/dynamics/random_numbers.h"
@@ -110,4 +114,29 @@ TEST_CASE("The fast and the plain evaluator agree on general states of the flexi
       }
     }
   }
+}
+
+TEST_CASE("Parts of the kinetic energy add up to it, and forward motion changes only the first", "[truck]") {
+  const dynamics::Vehicle vehicle = test::read_truck();
+  const dynamics::FlatRoad road;
+  const dynamics::Model model = test::make_truck(vehicle, 4, {&road, -1.0, 1.0});
+  test::RandomNumbers random(7);
+  dynamics::SystemTerms terms(model);
+  terms.update_positions(0.0, test::assemble_truck(model, vehicle));
+  terms.update_mass();
+  VectorXd v = random_change(model, random, 3.0, 1.0);
+  terms.update_velocities(v);
+  VectorXd parts, faster;
+  dynamics::calc_kinetic_parts(terms, parts);
+  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
+  terms.choose_branches(branches);
+  const double kinetic = dynamics::calc_energy(terms, branches).kinetic;
+  CHECK(std::abs(parts.sum() - kinetic) < 1e-12 * kinetic);
+  CHECK(parts.minCoeff() > 0.0);
+
+  for (const dynamics::Body& body : model.bodies) v[body.first_coordinate] += 20.0;
+  terms.update_velocities(v);
+  dynamics::calc_kinetic_parts(terms, faster);
+  CHECK(faster[0] > parts[0] + kinetic);
+  CHECK((faster - parts).tail(parts.size() - 1).lpNorm<Eigen::Infinity>() < 1e-12 * faster[0]);
 }
