@@ -103,11 +103,6 @@ class FunctionsOfTime(VerificationCase):
                 self.assert_close(results["forces/hand/torque"], [0, 0, 30])
                 self.assert_close(results["bodies/disc/acceleration"][:, 2], [0, 0, 60], absolute=1e-9)
 
-    def test_three_equal_times_are_no_jump(self):
-        table = "{ table = [[0.1, 0.0], [0.3, 1.0], [0.3, 2.0], [0.3, 3.0]] }"
-        message = self.refuse_text(VEHICLE.format(table), "duration = 1.0\n")
-        self.assertIn("must ascend, and at a jump two are equal, not three: 0.3 s comes after 0.3 s", message)
-
     def test_order_of_convergence_is_kept_across_jumps(self):
         # Generalized-α is of second order, with a part of a step before each jump: four times smaller errors with
         # half the step. A step across a jump would be of first order.

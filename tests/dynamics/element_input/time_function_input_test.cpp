@@ -53,7 +53,8 @@ TEST_CASE("Equal times in a table of a force are a jump; a motion cannot jump") 
   CHECK(error_of(table, TimeFunctionUse::kMotion) ==
         "v.toml:1:40: error: 'f.table.2' must ascend: 1 s comes after 1 s");
   CHECK(error_of("{ table = [[0.0, 0.0], [1.0, 2.0], [1.0, 5.0], [1.0, 7.0]] }") ==
-        "v.toml:1:52: error: 'f.table.3' must ascend: 1 s comes after 1 s");
+        "v.toml:1:52: error: 'f.table.3' must ascend, and at a jump two are equal, not three: 1 s comes "
+        "after 1 s");
   CHECK(error_of("{ table = [[0.0, 0.0], [1.0, 2.0], [0.9, 5.0]] }") ==
         "v.toml:1:40: error: 'f.table.2' must ascend: 0.9 s comes after 1 s");
   // The integrators join times that lie closer, and would lose a pulse between them. Those of the parts of a

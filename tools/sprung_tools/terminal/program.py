@@ -74,7 +74,17 @@ def run_tool(main: Callable[[], int]) -> NoReturn:
     except KeyboardInterrupt:
         complain("interrupted")
         code = 130
+    finally:
+        flush_errors()
     sys.exit(code)
+
+
+def flush_errors() -> None:
+    """Writes what argparse has printed on stderr. Where that is full, Python would end with a code of its own."""
+    try:
+        sys.stderr.flush()
+    except OSError:
+        discard_output(sys.stderr)
 
 
 def discard_output(stream: TextIO) -> None:
