@@ -44,6 +44,7 @@ class TransientRun {
     const double time = start.time;
     start_stepper();
     piece().update_branches(stepper_->equations().terms());
+    if (options_.adaptivity && options_.adaptivity->continues) pass_jump(time);
     stepper_->resume(time, smooth_end_);
     // Modes that join at the very start are there from the first output on.
     const bool is_settled = !(adaptive_ && time < options_.end_time);
@@ -188,6 +189,18 @@ class TransientRun {
     for (const BranchChange& change : piece().update_branches(stepper_->equations().terms())) {
       report_event({time, "switch", change.element, change.text});
     }
+  }
+
+  // Where functions of time jump at the start of a run that continues another, the forces before the jump are
+  // those that have held the modes left out.
+  void pass_jump(double time) {
+    if (piece().update_next_break(time - 2.0 * kSamePlace) > time + kSamePlace) {
+      find_end_of_smoothness(time);
+      return;
+    }
+    stepper_->evaluate(time, SystemStepper::Level::kAccelerations);
+    stepper_->resume(time, options_.end_time);
+    begin_piece(time);
   }
 
   void count_switch(double time) {
