@@ -150,10 +150,19 @@ void check_masses(const Vehicle& vehicle) {
   }
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
+  const double largest = *std::max_element(sorted.begin(), sorted.end());
   for (std::size_t i = 0; i < masses.size(); ++i) {
     const BodyDescription& body = vehicle.bodies[i];
     if (!body.superelement.empty() || body.mass == 0.0) continue;
     const double ratio = body.mass / *middle;
+    if (ratio <= kMostRatio && body.mass < largest / kMostRatio) {
+      throw support::InputError(
+          body.mass_location,
+          fmt::format(
+              "'bodies.{}.mass' is {:g} kg beside a body of {:g} kg: more than a factor of {:g} apart "
+              "they cannot be calculated together; give it more, or none",
+              body.name, body.mass, largest, kMostRatio));
+    }
     if (ratio > kMostRatio || ratio < 1.0 / kMostRatio) {
       throw support::InputError(
           body.mass_location,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "dynamics/linear/linear_vehicle.h"
@@ -18,17 +19,21 @@ namespace {
 
 constexpr double kSameRate = 1e-6;        // share of a rate that counts as no contradiction
 constexpr double kNoRate = 1e-12;         // m/s or rad/s that counts as none
-constexpr double kDetermined = 1e-11;     // mobility left by the joints, of that without joints
+constexpr double kDetermined = 1e-9;      // mobility left by the joints, of that without joints
 constexpr double kSingularPivot = 1e-12;  // of the largest
 
 // The velocities that joints allow, and the least changes among them (linear, eq. 17).
 class AllowedVelocities {
  public:
-  // @param inverse_mass  nq; coordinates with 0 do not change
-  AllowedVelocities(const SystemTerms& terms, const Eigen::VectorXd& inverse_mass)
-      : inverse_mass_(inverse_mass), Phi_q_(terms.jacobian().sparse()) {
+  // @param inverse_metric  nq; coordinates with 0 do not change
+  AllowedVelocities(const SystemTerms& terms, Eigen::VectorXd inverse_metric)
+      : inverse_metric_(std::move(inverse_metric)), Phi_q_(terms.jacobian().sparse()) {
     if (Phi_q_.rows() == 0) return;
-    factor_.compute(Phi_q_ * inverse_mass_.asDiagonal() * Phi_q_.transpose());
+    Eigen::SparseMatrix<double> S = Phi_q_ * inverse_metric_.asDiagonal() * Phi_q_.transpose();
+    // Rows of positions and of angles have other units.
+    scales_ = S.diagonal().cwiseSqrt().cwiseInverse();
+    S = scales_.asDiagonal() * S * scales_.asDiagonal();
+    factor_.compute(S);
     if (factor_.info() != Eigen::Success) {
       is_singular_ = true;
       return;
@@ -38,22 +43,41 @@ class AllowedVelocities {
   }
   bool is_singular() const { return is_singular_; }
 
-  // P M⁻¹ g
+  // The change of velocities with the largest gᵀv that leaves the rates before it as they are.
+  Eigen::VectorXd calc_change(const Eigen::VectorXd& g) const {
+    Eigen::VectorXd change = calc_response(g);
+    for (std::size_t k = 0; k < changes_.size(); ++k)
+      change -= gradients_[k].dot(change) / gradients_[k].dot(changes_[k]) * changes_[k];
+    return change;
+  }
+  void keep_rate(const Eigen::VectorXd& g, const Eigen::VectorXd& change) {
+    gradients_.push_back(g);
+    changes_.push_back(change);
+  }
+  // gᵀw of a change, of that without joints and other rates.
+  double calc_mobility(const Eigen::VectorXd& g, const Eigen::VectorXd& change) const {
+    return g.dot(change) / g.dot(inverse_metric_.cwiseProduct(g));
+  }
+
+ private:
+  // P D² g
   Eigen::VectorXd calc_response(const Eigen::VectorXd& g) const {
-    Eigen::VectorXd response = inverse_mass_.cwiseProduct(g);
+    Eigen::VectorXd response = inverse_metric_.cwiseProduct(g);
     if (Phi_q_.rows() == 0) return response;
     for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first
-      const Eigen::VectorXd lambda = factor_.solve(Phi_q_ * response);
-      response -= inverse_mass_.cwiseProduct(Phi_q_.transpose() * lambda);
+      const Eigen::VectorXd lambda =
+          scales_.cwiseProduct(factor_.solve(scales_.cwiseProduct(Phi_q_ * response)));
+      response -= inverse_metric_.cwiseProduct(Phi_q_.transpose() * lambda);
     }
     return response;
   }
 
- private:
-  Eigen::VectorXd inverse_mass_;
+  Eigen::VectorXd inverse_metric_;
   Eigen::SparseMatrix<double> Phi_q_;
+  Eigen::VectorXd scales_;  // of the rows
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   bool is_singular_ = false;
+  std::vector<Eigen::VectorXd> gradients_, changes_;  // of the rates that are kept
 };
 
 // Derivative of a joint's coordinate by all coordinates, nq.
@@ -66,17 +90,27 @@ Eigen::VectorXd calc_coordinate_gradient(const SystemTerms& terms, const Joint& 
       .transpose();
 }
 
-Eigen::VectorXd find_mobile_masses(const SystemTerms& terms, bool modes_move) {
-  Eigen::VectorXd inverse = terms.calc_metric().cwiseInverse();
-  for (const Body& body : terms.model().bodies) {
-    if (!modes_move) inverse.segment(body.first_coordinate + 3, body.num_modes()).setZero();
+// With 0 for modes, if they do not move.
+Eigen::VectorXd select_mobile(const Model& model, Eigen::VectorXd inverse_metric, bool modes_move) {
+  for (const Body& body : model.bodies) {
+    if (!modes_move) inverse_metric.segment(body.first_coordinate + 3, body.num_modes()).setZero();
   }
-  return inverse;
+  return inverse_metric;
 }
 
-std::unique_ptr<const AllowedVelocities> make_allowed_velocities(const SystemTerms& terms) {
+// The squares of the natural sizes, nq.
+Eigen::VectorXd calc_natural_metric(const Model& model) {
+  Eigen::VectorXd inverse_metric(model.num_coordinates);
+  for (int i = 0; i < model.num_coordinates; ++i)
+    inverse_metric[i] = model.coordinate_scale(i) * model.coordinate_scale(i);
+  return inverse_metric;
+}
+
+std::unique_ptr<AllowedVelocities> make_allowed_velocities(const SystemTerms& terms,
+                                                           const Eigen::VectorXd& inverse_metric) {
   for (const bool modes_move : {false, true}) {
-    auto allowed = std::make_unique<const AllowedVelocities>(terms, find_mobile_masses(terms, modes_move));
+    auto allowed =
+        std::make_unique<AllowedVelocities>(terms, select_mobile(terms.model(), inverse_metric, modes_move));
     if (!allowed->is_singular()) return allowed;
   }
   throw support::NumericalError(
@@ -103,26 +137,21 @@ void impose_joint_rates(const Model& model, const Eigen::VectorXd& q, std::span<
   terms.update_positions(0.0, q);
   terms.update_jacobian();
   terms.update_mass();
-  const std::unique_ptr<const AllowedVelocities> allowed = make_allowed_velocities(terms);
-  const Eigen::VectorXd inverse_mass = terms.calc_metric().cwiseInverse();
-  // Changes of velocity that leave the rates before them as they are, each with that of its own rate.
-  std::vector<Eigen::VectorXd> gradients, changes;
+  // Whether a rate is determined is a matter of the positions, and not of the masses.
+  const auto by_mass = make_allowed_velocities(terms, terms.calc_metric().cwiseInverse()),
+             by_position = make_allowed_velocities(terms, calc_natural_metric(model));
   for (const JointRate& wanted : rates) {
     const Joint& joint = *model.joints[static_cast<std::size_t>(wanted.joint)];
     const Eigen::VectorXd g = calc_coordinate_gradient(terms, joint);
-    const double without_joints = g.dot(inverse_mass.cwiseProduct(g));
-    Eigen::VectorXd change = allowed->calc_response(g);
-    for (std::size_t k = 0; k < changes.size(); ++k) {
-      change -= gradients[k].dot(change) / gradients[k].dot(changes[k]) * changes[k];
-    }
-    const double mobility = g.dot(change);
-    if (mobility <= kDetermined * without_joints) {
+    const Eigen::VectorXd possible = by_position->calc_change(g);
+    if (by_position->calc_mobility(g, possible) <= kDetermined) {
       check_same(joint, wanted, g.dot(v));
       continue;
     }
-    v += (wanted.rate - g.dot(v)) / mobility * change;
-    gradients.push_back(g);
-    changes.push_back(change);
+    const Eigen::VectorXd change = by_mass->calc_change(g);
+    v += (wanted.rate - g.dot(v)) / g.dot(change) * change;
+    by_position->keep_rate(g, possible);
+    by_mass->keep_rate(g, change);
   }
 }
 

@@ -88,19 +88,22 @@ void ConstrainedEquations::improve_accelerations() {
 }
 
 // Bodies without mass: M has no inverse, but with M_s in its place the error of a solution falls to the share
-// of the stand-ins in the mass that moves (system, eq. 13).
-bool ConstrainedEquations::solve_without_mass() {
+// of the stand-ins in the mass that moves (system, eq. 13). Without stand-ins it falls to rounding.
+bool ConstrainedEquations::solve_by_improvement() {
   if (model_->num_constraints > 0 && !factorise()) return false;
   v_dot_.setZero();
   lambda_.setZero();
   change_ = terms_.forces();
   apply_inverse_mass(change_);
   const double from_forces = std::sqrt(change_.dot(terms_.forces()));
+  double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMaxImprovements; ++iteration) {
     improve_accelerations();
     const double change = calc_metric_size(change_);
     if (!std::isfinite(change)) return false;
-    if (change <= kExact * (calc_metric_size(v_dot_) + from_forces)) return v_dot_.allFinite();
+    const bool is_rounding = !model_->has_massless_bodies && change > 0.5 * last;
+    if (is_rounding || change <= kExact * (calc_metric_size(v_dot_) + from_forces)) return v_dot_.allFinite();
+    last = change;
   }
   return false;
 }
@@ -109,8 +112,8 @@ bool ConstrainedEquations::solve_without_mass() {
 bool ConstrainedEquations::update_accelerations(std::span<const int> branches) {
   terms_.update_mass();
   terms_.update_forces(branches);
-  if (model_->has_massless_bodies) {
-    if (!solve_without_mass()) return false;
+  if (model_->has_light_bodies) {
+    if (!solve_by_improvement()) return false;
     terms_.set_has_accelerations();
     return true;
   }

@@ -50,7 +50,7 @@ class ConstrainedEquations {
   void apply_inverse_mass(Eigen::VectorXd& x) const;
   bool factorise();
   void calc_correction();
-  bool solve_without_mass();
+  bool solve_by_improvement();
   void improve_accelerations();
   double calc_metric_size(const Eigen::VectorXd& x);
 

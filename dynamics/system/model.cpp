@@ -26,12 +26,13 @@ void set_stand_ins(Model& model) {
   const double mean = std::reduce(masses.begin(), masses.end()) / static_cast<double>(masses.size());
   const double mass = kShare * std::max(masses.front(), kShare * masses[masses.size() / 2]);
   const double squared_length = model.length_scale * model.length_scale;
-  model.has_massless_bodies = false;
+  model.has_massless_bodies = model.has_light_bodies = false;
   for (Body& body : model.bodies) {
     body.stand_in_mass = body.mass > 0.0 ? 0.0 : mass;
     body.stand_in_inertia = body.second_moment > 0.0 ? 0.0 : mass * squared_length;
     body.least_metric = Eigen::Vector3d(1.0, 1.0, squared_length) * (kLightest * mean);
     model.has_massless_bodies |= body.stand_in_mass > 0.0 || body.stand_in_inertia > 0.0;
+    model.has_light_bodies |= body.mass < body.least_metric.x() || body.second_moment < body.least_metric.z();
   }
 }
 

@@ -45,6 +45,7 @@ struct Model {
   double length_scale = 1.0;          ///< largest distance of a marker from its body's frame [m]
   bool has_motions = false;           ///< some joint prescribes a motion
   bool has_massless_bodies = false;   ///< some body has no mass or no inertia
+  bool has_light_bodies = false;      ///< some mass or inertia is 0 or below the least metric
   std::vector<double> time_breaks;    ///< where functions of time have a kink or jump, ascending [s]
   DetailLengths time_details;         ///< of all functions of time
 

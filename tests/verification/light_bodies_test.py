@@ -81,6 +81,110 @@ def run_file(method, duration):
     )
 
 
+# A wheel pinned by its centre to an arm.
+WHEEL_ON_ARM = """
+name = "wheel on an arm"
+gravity = [0.0, 0.0]
+[bodies.arm]
+mass = {mass}
+inertia = {inertia}
+position = [0.0, 0.0]
+points = {{ end = [{length}, 0.0] }}
+[bodies.wheel]
+mass = 1.0
+inertia = 0.05
+position = [{length}, 0.0]
+[[joints]]
+name = "arm"
+type = "revolute"
+a = "ground.origin"
+b = "arm.origin"
+[[joints]]
+name = "axle"
+type = "revolute"
+a = "arm.end"
+b = "wheel.origin"
+"""
+
+
+def shrink(vehicle, size):
+    """The vehicle with all lengths multiplied."""
+    def scale(match):
+        numbers = [float(number) * size for number in match[2].split(",")]
+        return f"{match[1]}[{', '.join(map(repr, numbers))}]"
+    return re.sub(r"((?:position|end|start) = )\[([^\]]*)\]", scale, vehicle)
+
+
+class Rates(VerificationCase):
+    """Whether a rate is free is a matter of the positions: masses and sizes do not decide it."""
+
+    def test_a_wheel_on_a_light_arm_turns_as_asked(self):
+        for length, mass, inertia in ((0.02, 0, 0), (1e-3, 0, 0), (0.02, 1e-12, 1e-12), (1.0, 0, 0), (1.0, 1.0, 1e-9)):
+            for rates in ("arm = 2.0\naxle = 10.0\n", "axle = 10.0\narm = 2.0\n"):
+                with self.subTest(length=length, mass=mass, inertia=inertia, rates=rates):
+                    results = self.run_text(
+                        WHEEL_ON_ARM.format(length=length, mass=mass, inertia=inertia),
+                        'start = "as-given"\nduration = 0.1\n[output]\nprecision = "double"\n[joint_rates]\n' + rates,
+                    )  # fmt: skip
+                    self.assert_close(results["joints/arm/rate"], 2.0, relative=1e-6)
+                    self.assert_close(results["joints/axle/rate"], 10.0, relative=1e-6)
+
+    def test_mechanisms_of_any_size(self):
+        for size in (1e-6, 1e-3, 1e3):
+            for mass, inertia in ((1.0, 0.1 * size**2), (1e-8, 1e-8 * size**2)):
+                with self.subTest(size=size, mass=mass):
+                    vehicle = shrink(slider_crank(mass, inertia), size)
+                    vehicle = vehicle.replace("inertia = 0.1", f"inertia = {0.1 * size**2}")
+                    results = self.run_text(vehicle, run_file("adams", 0.01))
+                    self.assert_close(results["bodies/slider/velocity"][0, 0], size * SPEED, relative=1e-9)
+
+
+class HeavyRod(VerificationCase):
+    """A rod with almost all of the mass between a light crank and a light slider."""
+
+    ROD = 0.1  # kg m², of 1 kg
+
+    def accelerate(self, angle, rate):
+        """From T = ½ J(ψ) ψ̇² of the rod and its weight: ψ̈ = −(½ J′ ψ̇² + V′)/J, by differences in ψ."""
+
+        def inertia_and_height(at):
+            tilt = math.asin(math.sin(at) / ROD)
+            d_tilt = math.cos(at) / (ROD * math.cos(tilt))
+            dx = -math.sin(at) - 0.5 * ROD * math.sin(tilt) * d_tilt
+            dy = 0.5 * math.cos(at)
+            return dx**2 + dy**2 + self.ROD * d_tilt**2, 0.5 * math.sin(at)
+
+        h = 1e-5
+        (j_low, y_low), (j, _), (j_high, y_high) = (inertia_and_height(angle + k * h) for k in (-1, 0, 1))
+        return -(0.5 * (j_high - j_low) / (2 * h) * rate**2 + 9.81 * (y_high - y_low) / (2 * h)) / j
+
+    def vehicle(self, light, slider):
+        text = slider_crank(light, light).replace("gravity = [0.0, 0.0]", "gravity = [0.0, -9.81]")
+        rod = text.index("[bodies.rod]")
+        text = text[:rod] + re.sub(r"mass = .*\ninertia = .*", f"mass = 1.0\ninertia = {self.ROD}", text[rod:], count=1)
+        slider_at = text.index("[bodies.slider]")
+        return text[:slider_at] + text[slider_at:].replace(
+            "mass = 1.0\ninertia = 0.1", f"mass = {slider}\ninertia = {light}", 1
+        )
+
+    def test_light_ends_accelerate_with_it(self):
+        for light in (1e-6, 1e-9, 1e-12):
+            for method in METHODS:
+                with self.subTest(light=light, method=method):
+                    results = self.run_text(self.vehicle(light, light), run_file(method, 0.5))
+                    for row in (0, -1):
+                        angle, rate, found = (
+                            results[f"bodies/crank/{name}"][row, 2] for name in ("position", "velocity", "acceleration")
+                        )
+                        expected = self.accelerate(angle, rate)
+                        self.assertAlmostEqual(found, expected, delta=(2e-6 + 10.0 * light) * abs(expected))
+
+    def test_masses_too_far_apart_are_refused(self):
+        message = self.refuse_text(self.vehicle(1e-12, 1e-15), run_file("adams", 1.0))
+        self.assertIn("'bodies.slider.mass' is 1e-15 kg beside a body of 1 kg: more than a factor of 1e+12 apart they "
+                      "cannot be calculated together; give it more, or none", message)
+
+
 class SliderCrank(VerificationCase):
     def test_the_slider_keeps_its_speed(self):
         # It has all of the kinetic energy, but for ½ J ψ̇², which changes by less than 2 J as ψ̇ stays below 2 rad/s.
