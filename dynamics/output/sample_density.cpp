@@ -9,13 +9,13 @@ void SampleDensity::add_sample(double value) {
   std::rotate(last_.begin(), last_.begin() + 1, last_.end());
   last_.back() = value;
   ++num_samples_;
+  sum_of_squares_ += value * value;
   const bool is_first = num_samples_ == 1;
   smallest_ = is_first ? value : std::min(smallest_, value);
   largest_ = is_first ? value : std::max(largest_, value);
   if (num_samples_ < std::ssize(last_)) return;
   const double cubic = (4.0 * (last_[1] + last_[3]) - last_[0] - last_[4]) / 6.0;
   sum_of_differences_ += (last_[2] - cubic) * (last_[2] - cubic);
-  sum_of_squares_ += last_[2] * last_[2];
 }
 
 void SampleDensity::add_between(double value) {

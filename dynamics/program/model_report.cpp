@@ -63,6 +63,7 @@ Json describe_road(const RoadDescription& road) {
     parameters = {{"start", road.start},
                   {"length", road.random->length},
                   {"seed", road.random->seed},
+                  {"ease", road.random->ease},
                   {"band", {road.random->lowest, road.random->highest}}};
     const double density = road.random->spectrum.density(RoadSpectrum::kReferenceWavenumber);
     if (road.random->rms > 0.0) {

@@ -36,6 +36,13 @@ TEST_CASE("four samples, and samples below the floor, are not called rough") {
   CHECK(small.roughness(kFloor) < 0.01);
 }
 
+TEST_CASE("a jump at the last sample is not called rough") {
+  SampleDensity density;
+  for (int i = 0; i < 1000; ++i) density.add_sample(0.0);
+  density.add_sample(15.0);
+  CHECK(density.roughness(kFloor) < 0.4);
+}
+
 TEST_CASE("a value between samples counts where it lies outside of their range") {
   SampleDensity density;
   for (const double value : {-4.0, 1.0, 3.0}) density.add_sample(value);

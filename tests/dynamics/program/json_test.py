@@ -71,7 +71,7 @@ class JsonOfCommands(DynamicsTestCase):
         self.assertEqual(parameters["road"], "random")
         found = parameters["road_parameters"]
         self.assertAlmostEqual(found.pop("density"), 1024e-6, delta=1e-12)
-        self.assertEqual(found, {"start": 2.0, "length": 50.0, "seed": 7, "band": [0.011, 2.83]})
+        self.assertEqual(found, {"start": 2.0, "length": 50.0, "seed": 7, "ease": 0.0, "band": [0.011, 2.83]})
 
     def test_every_path_is_documented_and_every_documented_one_occurs(self):
         short = ("--set", "duration=0.1", "--set", "modes.chassis=2")
