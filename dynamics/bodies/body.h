@@ -39,8 +39,8 @@ struct Body {
   /// For a rigid body without mass or without inertia: what stands in their place while accelerations are
   /// found, small beside all others of the system (system, eq. 13). The equations of motion do not contain
   /// them.
-  double stand_in_mass = 0.0;                ///< [kg]
-  double stand_in_inertia = 0.0;             ///< [kg·m²]
+  double stand_in_mass = 0.0;     ///< [kg]
+  double stand_in_inertia = 0.0;  ///< [kg·m²]
   /// Least entries of the metric of the coordinates x, y, ψ (system, eq. 3) [kg, kg, kg·m²].
   Eigen::Vector3d least_metric = Eigen::Vector3d::Zero();
   std::optional<BodyStiffening> stiffening;  ///< present where it is switched on and there are modes

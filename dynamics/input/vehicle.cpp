@@ -155,20 +155,20 @@ void check_masses(const Vehicle& vehicle) {
     const BodyDescription& body = vehicle.bodies[i];
     if (!body.superelement.empty() || body.mass == 0.0) continue;
     const double ratio = body.mass / *middle;
-    if (ratio <= kMostRatio && body.mass < largest / kMostRatio) {
-      throw support::InputError(
-          body.mass_location,
-          fmt::format(
-              "'bodies.{}.mass' is {:g} kg beside a body of {:g} kg: more than a factor of {:g} apart "
-              "they cannot be calculated together; give it more, or none",
-              body.name, body.mass, largest, kMostRatio));
-    }
     if (ratio > kMostRatio || ratio < 1.0 / kMostRatio) {
       throw support::InputError(
           body.mass_location,
           fmt::format("'bodies.{}.mass' is {:g} kg, where half of the bodies have {} {:g} kg: more than a "
                       "factor of {:g} apart they cannot be calculated together",
                       body.name, body.mass, ratio > 1.0 ? "at most" : "at least", *middle, kMostRatio));
+    }
+    if (body.mass < largest / kMostRatio) {
+      throw support::InputError(
+          body.mass_location,
+          fmt::format(
+              "'bodies.{}.mass' is {:g} kg beside a body of {:g} kg: more than a factor of {:g} apart "
+              "they cannot be calculated together; give it more, or none",
+              body.name, body.mass, largest, kMostRatio));
     }
     if (body.inertia == 0.0) continue;
     const double radius = std::sqrt(body.inertia / body.mass);

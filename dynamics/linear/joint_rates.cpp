@@ -144,7 +144,8 @@ void impose_joint_rates(const Model& model, const Eigen::VectorXd& q, std::span<
     const Joint& joint = *model.joints[static_cast<std::size_t>(wanted.joint)];
     const Eigen::VectorXd g = calc_coordinate_gradient(terms, joint);
     const Eigen::VectorXd possible = by_position->calc_change(g);
-    if (by_position->calc_mobility(g, possible) <= kDetermined) {
+    // No number where the rate is one of modes alone, which do not move.
+    if (!(by_position->calc_mobility(g, possible) > kDetermined)) {
       check_same(joint, wanted, g.dot(v));
       continue;
     }

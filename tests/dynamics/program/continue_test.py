@@ -133,8 +133,9 @@ class Continue(DynamicsTestCase):
                     told.append(json.loads(process.stdout)["modes"])
                 with h5py.File(self.folder / "long.h5") as whole, h5py.File(self.folder / "second.h5") as second:
                     for name, allowed in (("position", 1e-5), ("acceleration", 0.02)):
-                        expected = whole[f"bodies/chassis/{name}"][300:, :2]
-                        off = second[f"bodies/chassis/{name}"][:, :2] - expected
+                        # Without the first row, in which the modes of the long run have not joined yet.
+                        expected = whole[f"bodies/chassis/{name}"][301:, :2]
+                        off = second[f"bodies/chassis/{name}"][1:, :2] - expected
                         self.assertLess(np.abs(off).max(), allowed * np.abs(expected).max())
                 if adaptive == "false":  # what came before is not known to the second
                     shares = [one["left_out_together"]["of_rms_acceleration"] for one in told]
