@@ -1,7 +1,5 @@
 #include "dynamics/integration/generalized_alpha/generalized_alpha_stepper.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +8,6 @@
 #include "dynamics/integration/attempt.h"
 #include "dynamics/integration/throw_stopped.h"
 #include "tools/support/dense/vector_span.h"
-#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
 
@@ -33,13 +30,6 @@ constexpr double kWorthwhile = 1.2;
 // Errors in the multipliers change their sign from step to step, and do not decay where the radius is 1.
 const char* remark_on_radius(double spectral_radius) {
   return spectral_radius > 0.995 ? "; nothing damps the joints' forces at that spectral_radius: try 0.9" : "";
-}
-
-[[noreturn]] void throw_open_joints(double time) {
-  throw support::NumericalError(fmt::format(
-      "the joints cannot be closed at t = {:.9g} s; look at the positions just before that time, where the "
-      "mechanism may come to a singular one or to the end of its travel",
-      time));
 }
 
 }  // namespace

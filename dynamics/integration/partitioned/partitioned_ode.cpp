@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/integration/throw_stopped.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -71,19 +72,12 @@ void PartitionedOde::throw_not_finite(double time) const {
         fmt::format("'forces.{}' is not a finite number at t = {:.9g} s: look at its functions and sizes",
                     force.name, time));
   }
-  throw_not_closed(time);
-}
-
-void PartitionedOde::throw_not_closed(double time) {
-  throw support::NumericalError(fmt::format(
-      "the joints cannot be closed at t = {:.9g} s; look at the positions just before that time, where the "
-      "mechanism may come to a singular one or to the end of its travel",
-      time));
+  throw_open_joints(time);
 }
 
 void PartitionedOde::close_joints(double time, std::span<const double> y) {
   // A second search starts at the accepted motion, to which the first has gone back.
-  if (!evaluate_motion(time, y) && !evaluate_motion(time, y)) throw_not_closed(time);
+  if (!evaluate_motion(time, y) && !evaluate_motion(time, y)) throw_open_joints(time);
 }
 
 void PartitionedOde::calc_accelerations(double time, std::span<const double> y) {

@@ -71,7 +71,6 @@ class PartitionedOde final : public OdeSystem {
  private:
   bool evaluate_motion(double time, std::span<const double> y);
   void hold_states(SmallMotion& motion) const;
-  [[noreturn]] static void throw_not_closed(double time);
   [[noreturn]] void throw_not_finite(double time) const;
 
   const Model* model_;
