@@ -122,18 +122,21 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
   Eigen::MatrixXd errors = sizes;
   for (const int i : system.partition.dependent)
     errors.row(i) /= std::min(1.0, system.partition.smallest_pivot);
-  // All entries of D, zeros too, have rounding errors in natural sizes, and so does the work of each force.
+  // All entries of D that joints do not keep at zero have rounding errors in natural sizes, and so does the
+  // work of each force.
   Eigen::VectorXd scales(n);
   for (int i = 0; i < model.num_coordinates; ++i) scales[i] = model.coordinate_scale(i);
-  const double work = scales.dot(forces.cwiseAbs());
+  const Eigen::VectorXd work =
+      equations.find_pattern_of_directions().transpose() * scales.cwiseProduct(forces.cwiseAbs());
   const Eigen::VectorXd by_scale = scales(system.partition.independent).cwiseInverse();
+  const Eigen::MatrixXd of_work = work.cwiseProduct(by_scale) * by_scale.transpose();
   system.stiffness_rounding =
       kRoundingUnit * (sizes.transpose() * (apply_modal_stiffness(model, errors, true) +
                                             derivative.bottomRows(n).cwiseAbs() / kPositionStep) +
-                       work / kPositionStep * by_scale * by_scale.transpose());
+                       (of_work + of_work.transpose()) / (2.0 * kPositionStep));
   const Eigen::VectorXd moved = calc_coordinate_rounding(model, system.partition, q);
-  system.force_rounding =
-      kRoundingUnit * work * by_scale + sizes.transpose() * apply_modal_stiffness(model, moved, true);
+  system.force_rounding = kRoundingUnit * work.cwiseProduct(by_scale) +
+                          sizes.transpose() * apply_modal_stiffness(model, moved, true);
 }
 
 }  // namespace

@@ -226,6 +226,35 @@ void DependentSolver::subtract_transposed_product(const Eigen::VectorXd& y,
   }
 }
 
+Eigen::MatrixXd DependentSolver::find_followers(int num_independent) const {
+  Eigen::Index num_constraints = static_cast<Eigen::Index>(singles_.size());
+  for (const DiagonalBlock& block : blocks_) num_constraints += static_cast<Eigen::Index>(block.rows.size());
+  Eigen::MatrixXd touched = Eigen::MatrixXd::Zero(num_constraints, num_independent);  // by constraints
+  for (const Strip& strip : strips_)
+    touched.block(strip.row, strip.first, strip.num_rows, strip.num_columns).setOnes();
+  Eigen::MatrixXd followers = Eigen::MatrixXd::Zero(num_constraints, num_independent);
+  std::size_t num_found = 0;  // of the singles
+  const auto find_singles = [&](std::size_t end) {
+    for (; num_found < end; ++num_found) {
+      const Single& single = singles_[num_found];
+      Eigen::RowVectorXd row = touched.row(single.row);
+      for (std::size_t i = num_found == 0 ? 0 : singles_[num_found - 1].end_of_outside;
+           i < single.end_of_outside; ++i)
+        row = row.cwiseMax(followers.row(outside_of_singles_[i].column));
+      followers.row(single.column) = row;
+    }
+  };
+  for (const DiagonalBlock& block : blocks_) {
+    find_singles(block.num_singles_before);
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(num_independent);
+    for (const int constraint : block.rows) row = row.cwiseMax(touched.row(constraint));
+    for (const Entry& entry : block.outside) row = row.cwiseMax(followers.row(entry.column));
+    for (const int column : block.columns) followers.row(column) = row;
+  }
+  find_singles(singles_.size());
+  return followers;
+}
+
 int DependentSolver::num_factor_entries() const {
   std::size_t count = singles_.size() + outside_of_singles_.size();
   for (const DiagonalBlock& block : blocks_) {

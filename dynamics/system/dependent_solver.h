@@ -38,6 +38,9 @@ class DependentSolver {
   void solve_transposed(Eigen::VectorXd& r, Eigen::VectorXd& y) const;
   /// x_i −= φ_iᵀ y. @param y  num_constraints   @param x_independent  in the order of Partition::independent
   void subtract_transposed_product(const Eigen::VectorXd& y, std::span<double> x_independent) const;
+  /// 1 where a dependent coordinate may move with an independent one at some position, 0 where it never does.
+  /// @param num_independent  f   @return num_constraints×f, in the orders of Partition
+  Eigen::MatrixXd find_followers(int num_independent) const;
   /// Marks the present factors as those of a good partition.
   void set_reference();
   /// Moves the reference to the present factors in the blocks whose determinant is larger than it was there.

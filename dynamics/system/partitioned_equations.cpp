@@ -270,6 +270,14 @@ Eigen::VectorXd PartitionedEquations::calc_reduced(const Eigen::VectorXd& x) con
   return reduced;
 }
 
+Eigen::MatrixXd PartitionedEquations::find_pattern_of_directions() const {
+  Eigen::MatrixXd pattern = Eigen::MatrixXd::Zero(model_->num_coordinates, num_freedoms_);
+  for (std::size_t k = 0; k < partition_.independent.size(); ++k)
+    pattern(partition_.independent[k], static_cast<Eigen::Index>(k)) = 1.0;
+  pattern(partition_.dependent, Eigen::all) = dependents_.find_followers(num_freedoms_);
+  return pattern;
+}
+
 // D x_i = x_i and −φ_d⁻¹ φ_i x_i.
 Eigen::VectorXd PartitionedEquations::calc_free_motion(const Eigen::VectorXd& x_independent) const {
   Eigen::VectorXd motion(model_->num_coordinates);

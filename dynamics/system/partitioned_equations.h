@@ -87,6 +87,8 @@ class PartitionedEquations {
   /// D = ∂v/∂v_i, nq×f, what the constraints leave free, at the positions evaluated last.
   Eigen::MatrixXd calc_directions() const;
   void calc_directions(Eigen::MatrixXd& directions) const;
+  /// Pattern of D, nq×f: 1 where an entry differs from zero at some positions, 0 where it never does.
+  Eigen::MatrixXd find_pattern_of_directions() const;
   /// Mass matrices at the positions evaluated last; update_accelerations does so, too.
   void update_mass() { mutable_terms().update_mass(); }
   /// Dᵀ M D, f×f, after update_mass.

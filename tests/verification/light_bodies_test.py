@@ -7,6 +7,7 @@ import re
 import unittest
 
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
 from verification_case import VerificationCase, run_program
 
@@ -183,6 +184,72 @@ class HeavyRod(VerificationCase):
         message = self.refuse_text(self.vehicle(1e-12, 1e-15), run_file("adams", 1.0))
         self.assertIn("'bodies.slider.mass' is 1e-15 kg beside a body of 1 kg: more than a factor of 1e+12 apart they "
                       "cannot be calculated together; give it more, or none", message)
+
+
+# A flap is hinged with a soft spring at the end of a heavy body, which slides on a spring of 100 N/m for each kg.
+FLAP = """
+name = "flap on a truck"
+gravity = [0.0, -9.81]
+[bodies.truck]
+mass = 1000.0
+inertia = 1333.0
+position = [1.0, 0.0]
+points = {{ end = [2.0, 0.0] }}
+[bodies.flap]
+mass = {mass}
+inertia = {inertia}
+position = [{centre!r}, 0.0]
+points = {{ pin = [{pin!r}, 0.0] }}
+[[joints]]
+name = "guide"
+type = "translational"
+a = "ground.origin"
+b = "truck.origin"
+axis = [1.0, 0.0]
+[[joints]]
+name = "hinge"
+type = "revolute"
+a = "truck.end"
+b = "flap.pin"
+[[forces]]
+name = "buffer"
+type = "spring-damper"
+a = "ground.origin"
+b = "truck.origin"
+free_length = 1.0
+spring = {{ polynomial = [0.0, 100000.0] }}
+[[forces]]
+name = "coil"
+type = "rotational-spring-damper"
+a = "truck.end"
+b = "flap.pin"
+free_angle = 0.0
+spring = {{ polynomial = [0.0, {stiffness!r}] }}
+"""
+
+
+class SoftFlap(VerificationCase):
+    """What holds a light body is not taken for rounding of the weight of a heavy one."""
+
+    HALF = 0.005  # m, half of the flap's length
+
+    def test_it_sags_and_swings_on_its_own_spring(self):
+        for mass in (1e-3, 1e-6, 1e-8):
+            with self.subTest(mass=mass):
+                moment = mass * 9.81 * self.HALF  # N m
+                stiffness = 2.0 * moment
+                vehicle = FLAP.format(mass=mass, inertia=mass * self.HALF**2 / 3.0, centre=3.0 + self.HALF,
+                                      pin=-self.HALF, stiffness=stiffness)  # fmt: skip
+                run = self.write_model(vehicle, "duration = 1.0\n")
+                # k α + m g c cos α = 0, and ω² = (k − m g c sin α) / J about the hinge; the truck stands as good as still
+                sag = brentq(lambda angle: stiffness * angle + moment * math.cos(angle), -1.5, 0.0)
+                swing = math.sqrt((stiffness - moment * math.sin(sag)) / (4.0 / 3.0 * mass * self.HALF**2))
+                balance = self.program("equilibrium", run)
+                self.assertEqual(balance["neutral"], [])
+                self.assert_close(balance["bodies"]["flap"]["angle"], sag, absolute=1e-10)
+                elastic, num_rigid = self.modes(run)
+                self.assertEqual(num_rigid, 0)
+                self.assert_close(sorted(elastic), [10.0, swing], relative=3e-6)
 
 
 class SliderCrank(VerificationCase):

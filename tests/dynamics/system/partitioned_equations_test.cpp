@@ -11,6 +11,7 @@
 #include "dynamics/linear/assembly.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
+#include "tests/dynamics/chains.h"
 #include "tests/dynamics/random_numbers.h"
 #include "tests/dynamics/small_models.h"
 #include "tests/dynamics/system/dense_comparison.h"
@@ -218,4 +219,24 @@ TEST_CASE("The quality of a partition decreases towards the position where it is
     last = equations.partition_decay();
   }
   CHECK(last > 20.0);
+}
+
+TEST_CASE("What moves with a freedom at some position is found from the joints", "[system]") {
+  for (const bool closed : {false, true}) {
+    const test::Chain chain = closed ? test::make_closed_chain(12) : test::make_open_chain(12);
+    PartitionedEquations equations(chain.model);
+    equations.choose_partition_at(0.0, chain.state.q);
+    const Eigen::MatrixXd pattern = equations.find_pattern_of_directions();
+    // Whatever D has at positions nearby, in which no link is parallel to another or to an axis.
+    Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(pattern.rows(), pattern.cols());
+    for (const double shift : {0.01, 0.02}) {
+      std::vector<double> values;
+      for (const int i : equations.partition().independent)
+        values.push_back(chain.state.q[i] + shift * std::sin(2.0 + i));
+      REQUIRE(equations.update_positions(0.0, values) == PartitionedEquations::Outcome::kGood);
+      seen = seen.cwiseMax((equations.calc_directions().array() != 0.0).cast<double>().matrix());
+    }
+    CHECK(pattern == seen);
+    CHECK(pattern.isOnes() == false);
+  }
 }
