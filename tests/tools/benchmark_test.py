@@ -5,11 +5,12 @@ import os
 import re
 import shutil
 import unittest
+from pathlib import Path
 
 import numpy as np
 from tool_test_case import ToolTestCase
 
-from sprung_tools.benchmark.many_runs import ManyRuns, check_many_runs, format_many_runs
+from sprung_tools.benchmark.many_runs import ManyRuns, check_many_runs, format_many_runs, measure_many_runs
 from sprung_tools.benchmark.tables import format_runs
 from sprung_tools.benchmark.targets import check_targets
 from sprung_tools.benchmark.whole_runs import (
@@ -201,6 +202,24 @@ class Tool(ToolTestCase):
             if float(row["tolerance"]) <= 1e-6:
                 self.assertLess(float(row["height_error_m"]), 1e-4, row)
         self.assertEqual((self.folder / "out/work_precision.png").read_bytes()[:4], b"\x89PNG")
+
+    def test_other_numbers_of_modes_are_drawn_as_well(self):
+        process = self.run_tool("benchmark", "--quick", "--modes", "3", "--methods", "exponential", "--programs",
+                                os.environ["SPRUNG_BUILD"], "--output-dir", "out")  # fmt: skip
+        self.assert_succeeds(process)
+        with open(self.folder / "out/work_precision.csv", encoding="utf-8") as file:
+            self.assertEqual({row["modes"] for row in csv.DictReader(file)}, {"3"})
+
+    def test_runs_as_long_as_their_files_say_are_measured(self):
+        program = Path(os.environ["SPRUNG_BUILD"]) / "dynamics/sprung-dynamics"
+        superelements = Path(os.environ["SPRUNG_TRUCK_SUPERELEMENTS"])
+        for kind, runs in measure_many_runs(program, superelements, 1, None).items():
+            with self.subTest(kind=kind):
+                self.assertGreater(runs.by_process, runs.integration)
+
+    def test_numbers_without_sense_are_refused(self):
+        for arguments in (("--repetitions", "0"), ("--modes", "-1"), ("--methods", "euler")):
+            self.assertEqual(self.run_tool("benchmark", "--quick", *arguments).returncode, 2, arguments)
 
     def test_programs_that_are_not_built_are_named(self):
         process = self.run_tool("benchmark", "--programs", "nowhere", "--output-dir", "out")

@@ -64,10 +64,10 @@ def measure_kind(
     # Of a shortened run the statistics end with it.
     settings = [f"duration={end}", *([f"statistics.to={end}"] if duration is not None else [])]
     command = make_command(program, "run", kind.run, superelements, settings, results if kind.is_stored else None)
-    # Outputs at the start and the end only, and no modes left out are followed.
+    # Outputs at the start and the end only, which the statistics must hold, and no modes left out are followed.
     bare = make_command(
         program, "run", kind.run, superelements,
-        [*settings, f"output_step={end}", "adaptivity.indicator=false"],
+        [*settings, f"output_step={end}", "statistics.from=0", f"statistics.to={end}", "adaptivity.indicator=false"],
     )  # fmt: skip
     has_module = load_module(program).call is not None
     if has_module:

@@ -29,7 +29,7 @@ ALLOWED_SHARE = 0.01  # error of peak and r.m.s. of the acceleration and of the 
 
 
 BASELINE_MODES = (0, 2, 4)  # with more modes the dense program takes minutes
-DRAWN_MODES = 2  # with so many modes every rung of the ladder is measured, for the picture
+DRAWN_MODES = 2  # or the first number that is measured: then every rung of the ladder is, for the picture
 
 Key = tuple[str, int, str]  # run, modes, method
 Rungs = dict[Key, "Rung | None"]
@@ -220,6 +220,7 @@ def measure_runs(program: Path, superelements: Path, folder: Path, plan: Plan) -
     results: dict[Key, Rung | None] = {}
     firsts: dict[Key, Rung | None] = {}
     ladders, durations, cases = {}, {}, {}
+    drawn = DRAWN_MODES if DRAWN_MODES in plan.modes else plan.modes[0]
     methods = {modes: [*plan.methods, *([BASELINE] if modes in BASELINE_MODES else [])] for modes in plan.modes}
     with Progress("whole runs", len(plan.runs) * sum(map(len, methods.values()))) as progress:
         for run, modes in itertools.product(plan.runs, plan.modes):
@@ -228,7 +229,7 @@ def measure_runs(program: Path, superelements: Path, folder: Path, plan: Plan) -
             cases[run, modes] = case
             durations[run] = case.duration
             for method in methods[modes]:
-                whole = modes == DRAWN_MODES
+                whole = modes == drawn
                 key = run, modes, method
                 rungs, results[key], firsts[key] = case.climb(method, plan.repetitions, plan.ladder, whole)
                 if whole:

@@ -43,21 +43,25 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument(
         "--repetitions", type=int, default=5, metavar="N", help="of each timing; the tables show medians"
     )
-    parser.add_argument("--methods", nargs="+", default=list(METHODS), metavar="METHOD", help="integrators")
     parser.add_argument(
-        "--modes", nargs="+", type=int, default=list(MODES), metavar="N", help="chassis modes, 0 for the rigid chassis"
+        "--methods", nargs="+", default=list(METHODS), choices=METHODS, metavar="METHOD", help="integrators"
     )
+    parser.add_argument("--modes", nargs="+", type=int, metavar="N", help="chassis modes, 0 for the rigid chassis")
     parser.add_argument(
         "--quick", action="store_true",
         help="one short run, few tolerances: shows that all of it works, measures little",
     )  # fmt: skip
-    return parser.parse_args()
+    arguments = parser.parse_args()
+    if arguments.repetitions < 1 or min(arguments.modes or MODES) < 0:
+        parser.error("--repetitions must be at least 1, and --modes at least 0")
+    return arguments
 
 
 def make_plan(arguments: argparse.Namespace) -> Plan:
     if arguments.quick:
-        return Plan(("bump",), (0, 2), arguments.methods, (1e-4, 1e-5, 1e-6, 1e-7), 1, QUICK_DURATION)
-    return Plan(RUNS, arguments.modes, arguments.methods, LADDER, arguments.repetitions, None)
+        modes = arguments.modes or (0, 2)
+        return Plan(("bump",), modes, arguments.methods, (1e-4, 1e-5, 1e-6, 1e-7), 1, QUICK_DURATION)
+    return Plan(RUNS, arguments.modes or MODES, arguments.methods, LADDER, arguments.repetitions, None)
 
 
 def measure_reduction(arguments: argparse.Namespace) -> str:
