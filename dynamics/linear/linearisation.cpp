@@ -123,20 +123,26 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
   for (const int i : system.partition.dependent)
     errors.row(i) /= std::min(1.0, system.partition.smallest_pivot);
   // All entries of D that joints do not keep at zero have rounding errors in natural sizes, and so does the
-  // work of each force.
+  // work of each force. Forces that vanish at q do not at the positions of the differences.
   Eigen::VectorXd scales(n);
   for (int i = 0; i < model.num_coordinates; ++i) scales[i] = model.coordinate_scale(i);
-  const Eigen::VectorXd work =
-      equations.find_pattern_of_directions().transpose() * scales.cwiseProduct(forces.cwiseAbs());
-  const Eigen::VectorXd by_scale = scales(system.partition.independent).cwiseInverse();
-  const Eigen::MatrixXd of_work = work.cwiseProduct(by_scale) * by_scale.transpose();
+  const Eigen::VectorXd independent_scales = scales(system.partition.independent);
+  const Eigen::RowVectorXd by_scale = independent_scales.cwiseInverse().transpose();
+  const Eigen::MatrixXd gradient = derivative.bottomRows(n).cwiseAbs();
+  const Eigen::VectorXd changes = gradient * independent_scales.cwiseMax(q_i.cwiseAbs());
+  const Eigen::MatrixXd pattern = equations.find_pattern_of_directions();
+  const auto calc_work = [&](double step) -> Eigen::VectorXd {
+    const Eigen::VectorXd sum = pattern.transpose() * scales.cwiseProduct(forces.cwiseAbs() + step * changes);
+    return sum.cwiseProduct(by_scale.transpose());
+  };
+  const Eigen::MatrixXd of_work = calc_work(kPositionStep) * by_scale;
   system.stiffness_rounding =
-      kRoundingUnit * (sizes.transpose() * (apply_modal_stiffness(model, errors, true) +
-                                            derivative.bottomRows(n).cwiseAbs() / kPositionStep) +
-                       (of_work + of_work.transpose()) / (2.0 * kPositionStep));
+      kRoundingUnit *
+      (sizes.transpose() * (apply_modal_stiffness(model, errors, true) + gradient / kPositionStep) +
+       (of_work + of_work.transpose()) / (2.0 * kPositionStep));
   const Eigen::VectorXd moved = calc_coordinate_rounding(model, system.partition, q);
-  system.force_rounding = kRoundingUnit * work.cwiseProduct(by_scale) +
-                          sizes.transpose() * apply_modal_stiffness(model, moved, true);
+  system.force_rounding =
+      kRoundingUnit * calc_work(1.0) + sizes.transpose() * apply_modal_stiffness(model, moved, true);
 }
 
 }  // namespace

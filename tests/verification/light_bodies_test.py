@@ -241,7 +241,7 @@ class SoftFlap(VerificationCase):
                 vehicle = FLAP.format(mass=mass, inertia=mass * self.HALF**2 / 3.0, centre=3.0 + self.HALF,
                                       pin=-self.HALF, stiffness=stiffness)  # fmt: skip
                 run = self.write_model(vehicle, "duration = 1.0\n")
-                # k α + m g c cos α = 0, and ω² = (k − m g c sin α) / J about the hinge; the truck stands as good as still
+                # k α + m g c cos α = 0, and ω² = (k − m g c sin α) / J about the hinge; the truck hardly moves
                 sag = brentq(lambda angle: stiffness * angle + moment * math.cos(angle), -1.5, 0.0)
                 swing = math.sqrt((stiffness - moment * math.sin(sag)) / (4.0 / 3.0 * mass * self.HALF**2))
                 balance = self.program("equilibrium", run)
