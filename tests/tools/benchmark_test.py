@@ -204,11 +204,11 @@ class Tool(ToolTestCase):
         self.assertEqual((self.folder / "out/work_precision.png").read_bytes()[:4], b"\x89PNG")
 
     def test_other_numbers_of_modes_are_drawn_as_well(self):
-        process = self.run_tool("benchmark", "--quick", "--modes", "3", "--methods", "exponential", "--programs",
+        process = self.run_tool("benchmark", "--quick", "--modes", "4", "--methods", "exponential", "--programs",
                                 os.environ["SPRUNG_BUILD"], "--output-dir", "out")  # fmt: skip
         self.assert_succeeds(process)
         with open(self.folder / "out/work_precision.csv", encoding="utf-8") as file:
-            self.assertEqual({row["modes"] for row in csv.DictReader(file)}, {"3"})
+            self.assertEqual({row["modes"] for row in csv.DictReader(file)}, {"4"})
 
     def test_runs_as_long_as_their_files_say_are_measured(self):
         program = Path(os.environ["SPRUNG_BUILD"]) / "dynamics/sprung-dynamics"
@@ -218,7 +218,10 @@ class Tool(ToolTestCase):
                 self.assertGreater(runs.by_process, runs.integration)
 
     def test_numbers_without_sense_are_refused(self):
-        for arguments in (("--repetitions", "0"), ("--modes", "-1"), ("--methods", "euler")):
+        for arguments in (
+            ("tolerances", "--modes", "2"), ("reduce", "--repetitions", "2"), ("--repetitions", "0"),
+            ("--modes", "-1"), ("--methods", "euler"),
+        ):  # fmt: skip
             self.assertEqual(self.run_tool("benchmark", "--quick", *arguments).returncode, 2, arguments)
 
     def test_programs_that_are_not_built_are_named(self):

@@ -4,6 +4,7 @@ sprung-dynamics wrote for named points. Needs both programs (SPRUNG_REDUCE, SPRU
 import os
 import shutil
 import unittest
+from types import SimpleNamespace
 from urllib.parse import unquote
 from xml.etree import ElementTree
 
@@ -15,6 +16,7 @@ from tool_test_case import ROOT, ToolTestCase, make_class_folder, run_program
 
 from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import open_results
+from sprung_tools.paraview.run import choose_samples
 
 STORED = ROOT / "tests/reduce/data/version_7.h5"
 RUN = ROOT / "dynamics/models/truck/bump.toml"
@@ -114,6 +116,14 @@ class OfTheTruck(ToolTestCase):
                         error = np.linalg.norm(found - expected, axis=1).min()
                         self.assertLess(error, floor * max(1.0, np.linalg.norm(expected)), (name, field, sample))
 
+    def test_instants_are_those_asked_for_however_many_samples_lie_between_them(self):
+        for every in (1e-3, 0.1, 0.5):
+            with self.subTest(every=every), open_results(str(self.folder / "run.h5")) as results:
+                time = results.time[choose_samples(results, (None, None), every)]
+                np.testing.assert_allclose(time, every * np.arange(round(results.time[-1] / every) + 1), atol=1e-9)
+            fine = SimpleNamespace(path="fine", time=1e-3 * np.arange(5001))
+            np.testing.assert_allclose(fine.time[choose_samples(fine, (None, None), 2.0)], [0.0, 2.0, 4.0])
+
     def test_beam_resultants_and_deflections_are_those_of_the_results(self):
         self.export("run.h5", "-o", "run.pvd", "--every", "0.1")
         with open_results(str(self.folder / "run.h5")) as results:
@@ -175,7 +185,7 @@ class OfTheTruck(ToolTestCase):
             ("--magnify: error: nan", "run.h5", "-o", "a.pvd", "--magnify", "nan"),
             ("--modes: error: run.h5 is a run", "run.h5", "-o", "a.pvd", "--modes", "1"),
             ("--every: error: chassis.h5 is a superelement", "chassis.h5", "-o", "a.pvd", "--every", "1"),
-            ("no samples from 9 to 0.5 s", "run.h5", "-o", "a.pvd", "--from", "9"),
+            ("no samples from 9 to 0.5 s; the run has those from 0 to 0.5 s", "run.h5", "-o", "a.pvd", "--from", "9"),
             ("none/a.pvd: error: cannot write the files (No such file or directory)", "chassis.h5", "-o", "none/a.pvd"),
             ("none.h5: error: no such file", "none.h5", "-o", "a.pvd"),
         ):

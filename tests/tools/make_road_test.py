@@ -198,6 +198,7 @@ class Tool(ToolTestCase):
             (("--exponent", "400"), "--exponent 400 makes a spectrum beyond the range of numbers"),
             (("--exponent", "-4000"), "--exponent -4000 makes a spectrum beyond the range of numbers"),
             (("--exponent", "nan"), "--exponent must be a finite number"),
+            (("--seed", "-1"), "--seed must be at least 0, got -1"),
             (("-o", "none/road.txt"), "none/road.txt: error: cannot write the file"),
         ):
             with self.subTest(changed):

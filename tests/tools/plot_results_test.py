@@ -63,6 +63,25 @@ class PlotResults(ToolTestCase):
         self.assertNotIn("front tyre", self.draw_svg("a.h5", "--show", DISPLACEMENT)[0])
         self.assertIn("front tyre", self.draw_svg("a.h5", "--show", DISPLACEMENT, "--mark-road")[0])
 
+    def test_an_obstacle_outside_the_span_is_not_marked(self):
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            height, time = file["forces/front_tyre/road_height"], file["time"][:]
+            height[...] = 0.1 * (((time > 0.1 * time[-1]) & (time < 0.2 * time[-1])) | (time > 0.9 * time[-1]))
+        middle = ("--from", str(0.3 * time[-1]), "--to", str(0.8 * time[-1]))
+        texts, _ = self.draw_svg("a.h5", "--show", DISPLACEMENT, "--mark-road", *middle)
+        self.assertNotIn("front tyre", texts)
+        self.assertIn("no obstacle on a level road here", " ".join(texts))
+        texts, _ = self.draw_svg("a.h5", "b.h5", "--show", DISPLACEMENT, "--mark-road")
+        self.assertEqual(texts.count("front tyre"), 1)  # of two stretches
+        self.assertIn("shaded: tyre over an obstacle in", " ".join(texts))
+
+    def test_a_run_without_the_quantity_is_named(self):
+        for tool, more in (("plot_results", ("-o", "out.png")), ("report_peaks", ())):
+            quantity = "points/chassis.front_end/deflection.y"
+            process = self.run_tool(tool, "stiff=a.h5", "b.h5", "--show", quantity, *more)
+            self.assert_succeeds(process)
+            self.assertIn(f"note: stiff: has no '{quantity}'\n", process.stdout)
+
     def test_a_png_is_fit_for_a_page_and_not_blank(self):
         process = self.run_tool("plot_results", "-o", "out.png", "a.h5", "b.h5", "--show", DISPLACEMENT)
         self.assertEqual(process.returncode, 0, process.stderr)

@@ -10,6 +10,7 @@ from tool_test_case import ToolTestCase
 
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.run_warnings import list_warnings
+from sprung_tools.runs.stored_histories import list_gaps
 
 
 def thin(file, name, every):
@@ -91,6 +92,20 @@ class RunWarnings(ToolTestCase):
                 self.assertEqual(process.returncode, 0, process.stderr)
                 self.assertIn("warning: chassis 3 vectors: the energy balance does not close", process.stdout)
                 self.assertIn("note: chassis 3 vectors: forces stored every 50 ms", process.stdout)
+
+    def test_histories_of_every_kind_that_are_not_stored_are_told(self):
+        write_results(self.folder / "a.h5", num_modes=0)
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            points = file.require_group("model/resolved/points")
+            points.require_group("chassis.seat").attrs["body"] = "chassis"
+            points.require_group("ground.post").attrs["body"] = "ground"
+            for group in ("bodies", "points"):
+                del file[group]
+        with open_results(self.folder / "a.h5") as results:
+            gaps = list_gaps(results)
+        self.assertIn("motion of bodies not stored: all", gaps)
+        self.assertIn("motion of points not stored: all", gaps)
+        self.assertIn("loads of forces on their bodies not stored: all", gaps)
 
     def test_the_modes_about_the_equilibrium_do_not_hold_for_a_wheel_in_the_air(self):
         self.write_neglected(self.folder / "a.h5")

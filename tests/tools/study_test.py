@@ -262,6 +262,12 @@ class Rows(StudyCase):
             self.assertEqual(float(row["summary/energy_closure [1]"]), file["summary"].attrs["energy_closure"])
         self.assertIn("0 made, 1 kept", self.study("--keep-results").stdout)
 
+    def test_results_files_of_a_command_that_writes_none_are_refused(self):
+        self.write_study('command = "equilibrium"\nmeasures = ["program/bodies/body/y"]\n' + HEIGHT + "values = [0.01]")
+        self.assert_refuses(self.study("--keep-results"),
+                            "study.toml: error: --keep-results: 'equilibrium' writes no results files")  # fmt: skip
+        self.assertFalse((self.folder / "out").exists())
+
     def test_wrong_arguments_are_refused(self):
         self.write_study(self.MEASURES + HEIGHT + "values = [0.01]")
         self.assertIn("--jobs must be at least 1, got 0", self.study("--jobs", "0").stderr)

@@ -41,10 +41,10 @@ def parse_arguments() -> argparse.Namespace:
         help="for work_precision.png, work_precision.csv and benchmark.txt",
     )  # fmt: skip
     parser.add_argument(
-        "--repetitions", type=int, default=5, metavar="N", help="of each timing; the tables show medians"
+        "--repetitions", type=int, metavar="N", help="of each timing; the tables show medians (default: 5)"
     )
     parser.add_argument(
-        "--methods", nargs="+", default=list(METHODS), choices=METHODS, metavar="METHOD", help="integrators"
+        "--methods", nargs="+", choices=METHODS, metavar="METHOD", help="integrators (default: all)"
     )
     parser.add_argument("--modes", nargs="+", type=int, metavar="N", help="chassis modes, 0 for the rigid chassis")
     parser.add_argument(
@@ -52,6 +52,11 @@ def parse_arguments() -> argparse.Namespace:
         help="one short run, few tolerances: shows that all of it works, measures little",
     )  # fmt: skip
     arguments = parser.parse_args()
+    chosen = [arguments.repetitions, arguments.methods, arguments.modes]
+    if arguments.what is not None and chosen != [None, None, None]:
+        parser.error(f"--repetitions, --methods and --modes do not go with '{arguments.what}'")
+    arguments.repetitions = 5 if arguments.repetitions is None else arguments.repetitions
+    arguments.methods = arguments.methods or list(METHODS)
     if arguments.repetitions < 1 or min(arguments.modes or MODES) < 0:
         parser.error("--repetitions must be at least 1, and --modes at least 0")
     return arguments

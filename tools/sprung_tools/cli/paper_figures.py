@@ -66,7 +66,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument(
         "--no-timing",
         action="store_true",
-        help="leave out the processor times, which need some minutes and an idle machine",
+        help="leave out the processor times, which need some minutes and an idle machine; the report is left as it is",
     )
     return parser.parse_args()
 

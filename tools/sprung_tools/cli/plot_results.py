@@ -3,7 +3,7 @@
 from sprung_tools.cli.arguments import add_run_arguments
 from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.plots.results_picture import make_results_figure
-from sprung_tools.runs.labelled_runs import open_runs, shown_quantities
+from sprung_tools.runs.labelled_runs import list_lacking, open_runs, shown_quantities
 from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.terminal.program import make_parser
 
@@ -23,7 +23,8 @@ def main() -> int:
     runs = open_runs(arguments.runs)
     title = arguments.title or runs[0].results.title
     span = (arguments.start, arguments.end)
-    figure = make_results_figure(runs, shown_quantities(arguments.show), span, title, arguments.mark_road)
+    quantities = shown_quantities(arguments.show)
+    figure = make_results_figure(runs, quantities, span, title, arguments.mark_road)
     write_picture(figure, arguments.output)
-    print("\n".join([*list_doubts(runs), arguments.output]))
+    print("\n".join([*list_doubts(runs), *list_lacking(runs, quantities), arguments.output]))
     return 0

@@ -3,7 +3,15 @@
 import numpy as np
 
 from sprung_tools.cli.arguments import add_run_arguments
-from sprung_tools.runs.labelled_runs import Run, Shown, open_runs, runs_with, samples_between, shown_quantities
+from sprung_tools.runs.labelled_runs import (
+    Run,
+    Shown,
+    list_lacking,
+    open_runs,
+    runs_with,
+    samples_between,
+    shown_quantities,
+)
 from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.terminal.program import make_parser
@@ -33,12 +41,13 @@ def main() -> int:
     add_run_arguments(parser)
     arguments = parser.parse_args()
     runs = open_runs(arguments.runs)
+    quantities = shown_quantities(arguments.show)
     rows = [
         calc_row(run, shown, arguments.start, arguments.end)
-        for shown in shown_quantities(arguments.show)
+        for shown in quantities
         for run in runs_with(runs, shown)
     ]
-    doubts = list_doubts(runs)
+    doubts = [*list_doubts(runs), *list_lacking(runs, quantities)]
     if doubts:
         print("\n".join(doubts) + "\n")
     print(format_table(HEADINGS, rows))

@@ -117,6 +117,8 @@ def summarise(finished: Finished) -> str:
 def main() -> int:
     arguments = parse_arguments()
     study = read_study(arguments.study)
+    if arguments.keep_results and study.command != "run":
+        raise InputError(f"{study.file.path}: error: --keep-results: '{study.command}' writes no results files")
     if arguments.workflow is not None:
         write_workflow(study, arguments.output, arguments.programs, arguments.workflow)
         return 0

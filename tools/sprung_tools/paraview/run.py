@@ -21,12 +21,12 @@ from sprung_tools.terminal.progress_bar import Progress
 
 def choose_samples(results: ResultsFile, span: OptionalSpan, every: float | None) -> Integers:
     """Chooses the samples to write within a span of time: the first of each step of `every` seconds, to a thousandth of
-    a step; all samples if `every` is None."""
+    the time between samples; all samples if `every` is None."""
     inside = np.flatnonzero(samples_between(results, *span))
-    if every is None:
+    if every is None or inside.size < 2:
         return inside
     time = results.time[inside]
-    step = np.floor((time - time[0]) / every + 1e-3)
+    step = np.floor((time - time[0] + 1e-3 * np.median(np.diff(time))) / every)
     return inside[np.unique(step, return_index=True)[1]]
 
 

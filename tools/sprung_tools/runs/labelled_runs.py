@@ -65,6 +65,14 @@ def runs_with(runs: Sequence[Run], shown: Shown) -> list[Run]:
     return found
 
 
+def list_lacking(runs: Sequence[Run], quantities: Iterable[Shown]) -> list[str]:
+    """Which runs lack a quantity that others have, each in a line."""
+    return [
+        f"note: {run.label}: has no '{shown.quantity}'"
+        for shown in quantities for run in runs if not run.results.has(shown.quantity)
+    ]  # fmt: skip
+
+
 def describe(results: ResultsFile) -> str:
     """Names a run after its flexible bodies: `chassis 2 modes`, or `rigid`."""
     flexible = [body for body in results.names("bodies") if results.num_modes(body)]
@@ -78,5 +86,8 @@ def samples_between(results: ResultsFile, start: float | None, end: float | None
     last = results.time[-1] if end is None else end
     inside = (results.time >= first) & (results.time <= last)
     if not np.any(inside):
-        raise InputError(f"{results.path}: error: no samples from {first:g} to {last:g} s")
+        raise InputError(
+            f"{results.path}: error: no samples from {first:g} to {last:g} s; the run has those from "
+            f"{results.time[0]:g} to {results.time[-1]:g} s"
+        )
     return inside

@@ -26,10 +26,18 @@ def list_missing(results: ResultsFile) -> Iterator[str]:
     bodies = results.names("model/bodies")
     joints, forces = (results.names(f"{ROOT}/{group}") for group in ("joints", "forces"))
     flexible = [body for body in bodies if results.num_modes(body)]
+    points = [one for one in results.names(f"{ROOT}/points")
+              if results.file.attribute(f"{ROOT}/points/{one}", "body", str, "") in bodies]  # fmt: skip
+
+    def has_loads(name: str) -> bool:
+        return any(one.startswith("on_") for one in results.names(f"forces/{name}"))
+
     groups = {
         "motion of bodies": (bodies, lambda name: results.has(f"bodies/{name}/position")),
+        "motion of points": (points, lambda name: results.has(f"points/{name}/position")),
         "joints": (joints, lambda name: results.has(f"joints/{name}/reaction")),
         "forces": (forces, lambda name: bool(list_force_channels(results, name))),
+        "loads of forces on their bodies": (forces, has_loads),
         RESULTANTS: (flexible, lambda name: results.has(f"recovery/{name}/moment")),
     }
     for what, (names, is_there) in groups.items():

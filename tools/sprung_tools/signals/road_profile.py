@@ -99,6 +99,8 @@ def check_recipe(recipe: Recipe) -> None:
         raise InputError(f"error: --exponent must be a finite number, got {recipe.exponent:g}")
     if not 0.0 < max(recipe.rms, recipe.density) < np.inf:
         raise InputError(f"error: --rms must be positive and finite (m), got {recipe.rms:g}")
+    if recipe.seed < 0:
+        raise InputError(f"error: --seed must be at least 0, got {recipe.seed}")
 
 
 def calc_waves(recipe: Recipe) -> Integers:
