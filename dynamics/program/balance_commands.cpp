@@ -2,7 +2,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -37,10 +38,12 @@ void warn_of_rounding(const Equilibrium& equilibrium, std::vector<RunWarning>& w
 }
 
 // Modes whose frequency rounding leaves open: by more than a ten-thousandth, or, of one that is taken for
-// rigid, by more than a hundredth of the lowest other one.
-void warn_of_rounded_modes(const std::vector<VehicleMode>& modes, std::vector<RunWarning>& warnings) {
+// rigid, by more than a hundredth of the lowest other one and of a pendulum of the vehicle's size.
+void warn_of_rounded_modes(const Model& model, const std::vector<VehicleMode>& modes,
+                           std::vector<RunWarning>& warnings) {
   constexpr double kExact = 1e-4, kRigid = 1e-2;
-  double lowest = std::numeric_limits<double>::infinity();
+  double lowest =
+      std::max(1.0, std::sqrt(model.gravity.norm() / model.length_scale)) / (2.0 * std::numbers::pi);
   for (const VehicleMode& mode : modes)
     if (!mode.is_rigid_body) lowest = std::min(lowest, mode.undamped_frequency_hz);
   std::vector<std::string> open;
@@ -138,7 +141,7 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
       calc_resting_sections(prepared.vehicle, model, *prepared.equilibrium, sections);
   std::vector<RunWarning> warnings = tell_warnings(prepared, resting, request.streams.err);
   warn_of_rounding(*prepared.equilibrium, warnings);
-  warn_of_rounded_modes(modes, warnings);
+  warn_of_rounded_modes(model, modes, warnings);
   std::optional<FrequencyBracket> bracket;
   if (output.bracket) bracket = calc_bracket(prepared, warnings);
   if (output.json) {

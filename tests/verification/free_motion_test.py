@@ -55,5 +55,31 @@ class Loops(VerificationCase):
                 self.assertEqual((len(balance["neutral"]), balance["stable"]), (num_free, True))
 
 
+def make_pair(coupling):
+    """Two sliders of 1 kg, the first on 1000 N/m to the ground, with a spring between them."""
+    text = 'name = "pair"\ngravity = [0.0, 0.0]\n'
+    for k in range(2):
+        text += f"[bodies.b{k}]\nmass = 1.0\ninertia = 0.1\nposition = [{k + 1.0}, 0.0]\n"
+    for k, (last, stiffness) in enumerate((("ground", 1000.0), ("b0", coupling))):
+        text += (
+            f'[[joints]]\nname = "guide{k}"\ntype = "translational"\na = "ground.origin"\nb = "b{k}.origin"\n'
+            f'axis = [1.0, 0.0]\n[[forces]]\nname = "spring{k}"\ntype = "spring-damper"\na = "{last}.origin"\n'
+            f'b = "b{k}.origin"\nfree_length = 1.0\nspring = {{ polynomial = [0.0, {stiffness}] }}\n'
+        )
+    return text
+
+
+class HiddenByRounding(VerificationCase):
+    def test_a_held_motion_that_a_stiff_spring_hides_is_doubted(self):
+        right = math.sqrt(1000.0 / 2.0) / (2.0 * math.pi)  # both move together
+        for coupling in (1e8, 1e12, 1e14):
+            with self.subTest(coupling=coupling):
+                found = self.program("modes", self.write_model(make_pair(coupling), "duration = 1.0\n"))
+                told = found["modes"][0]["undamped_frequency"]
+                is_doubted = any("rounding beside the largest stiffness" in one["text"] for one in found["warnings"])
+                self.assertTrue(is_doubted or abs(told - right) < 1e-4 * right, told)
+                self.assertEqual(is_doubted, coupling > 1e9)
+
+
 if __name__ == "__main__":
     unittest.main()
