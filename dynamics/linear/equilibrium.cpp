@@ -21,6 +21,7 @@ constexpr int kMaxNewtonIterations = 200;
 constexpr double kRoundingStep = 1e-10;  // steps below this that stop decreasing are rounding
 constexpr double kWorstRounding = 1e-5;  // largest rounding of a step that is accepted
 constexpr double kStiffestHz = 1e7;      // no vehicle has a faster mode: its stiffness or mass is mistaken
+constexpr double kHidden = 1.0;          // 1/s²: a neutral direction may have more, if rounding hides it
 
 bool is_stable(const LinearisedSystem& system) {
   const FrequencySolver solver(system.mass, system.damping, system.stiffness, system.stiffness_rounding);
@@ -65,10 +66,7 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
   return neutral;
 }
 
-[[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system,
-                                       const ModalForce& modal, const SteadyMotion& motion,
-                                       double last_step) {
-  const double least = std::max(modal.rounding_step, Equilibrium::kTolerance);
+void require_moderate_stiffness(const Model& model, const LinearisedSystem& system, const ModalForce& modal) {
   Eigen::Index stiffest = 0;
   const double fastest =
       std::sqrt(modal.modes.omega_squared.cwiseAbs().maxCoeff(&stiffest)) / (2.0 * std::numbers::pi);
@@ -78,6 +76,13 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
         "rounding hides the other forces; make it smaller, or put a joint in its place",
         fastest, describe(model, system.directions * modal.modes.vectors.col(stiffest)).description));
   }
+}
+
+[[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system,
+                                       const ModalForce& modal, const SteadyMotion& motion,
+                                       double last_step) {
+  const double least = std::max(modal.rounding_step, Equilibrium::kTolerance);
+  require_moderate_stiffness(model, system, modal);
   if (model.has_modes() && !modal.is_falling && modal.rounding_step > kWorstRounding) {
     throw support::NumericalError(fmt::format(
         "no static equilibrium: rounding beside the largest stiffness, of a mode at {:.3g} Hz, causes steps "
@@ -126,6 +131,7 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
       equilibrium.rounding_step = modal.rounding_step;
       for (Eigen::Index k = 0; k < modal.force.size(); ++k) {
         if (modal.is_neutral[static_cast<std::size_t>(k)]) {
+          if (modal.modes.rounding[k] > kHidden) require_moderate_stiffness(model, system, modal);
           const Eigen::VectorXd direction = system.directions * modal.modes.vectors.col(k);
           if (moves_bodies(model, direction)) equilibrium.neutral.push_back(describe(model, direction));
         } else if (modal.modes.omega_squared[k] < 0.0) {

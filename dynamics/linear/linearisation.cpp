@@ -131,18 +131,17 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
   const Eigen::MatrixXd gradient = derivative.bottomRows(n).cwiseAbs();
   const Eigen::VectorXd changes = gradient * independent_scales.cwiseMax(q_i.cwiseAbs());
   const Eigen::MatrixXd pattern = equations.find_pattern_of_directions();
-  const auto calc_work = [&](double step) -> Eigen::VectorXd {
-    const Eigen::VectorXd sum = pattern.transpose() * scales.cwiseProduct(forces.cwiseAbs() + step * changes);
-    return sum.cwiseProduct(by_scale.transpose());
+  const auto calc_work = [&](const Eigen::VectorXd& of_forces) -> Eigen::VectorXd {
+    return (pattern.transpose() * scales.cwiseProduct(of_forces)).cwiseProduct(by_scale.transpose());
   };
-  const Eigen::MatrixXd of_work = calc_work(kPositionStep) * by_scale;
+  const Eigen::MatrixXd of_work = calc_work(forces.cwiseAbs() + kPositionStep * changes) * by_scale;
   system.stiffness_rounding =
       kRoundingUnit *
       (sizes.transpose() * (apply_modal_stiffness(model, errors, true) + gradient / kPositionStep) +
        (of_work + of_work.transpose()) / (2.0 * kPositionStep));
   const Eigen::VectorXd moved = calc_coordinate_rounding(model, system.partition, q);
-  system.force_rounding =
-      kRoundingUnit * calc_work(1.0) + sizes.transpose() * apply_modal_stiffness(model, moved, true);
+  system.force_rounding = kRoundingUnit * (calc_work(forces.cwiseAbs()) + sizes.transpose() * changes) +
+                          sizes.transpose() * apply_modal_stiffness(model, moved, true);
 }
 
 }  // namespace

@@ -28,16 +28,7 @@ ModalForce::ModalForce(const Model& model, const LinearisedSystem& system)
   const Eigen::MatrixXd& V = modes.vectors;
   const std::vector<int>& independent = system.partition.independent;
   force = V.transpose() * system.force;
-  const Eigen::MatrixXd sizes = V.cwiseAbs();
-  Eigen::VectorXd rounding = sizes.transpose() * system.force_rounding;
-  // Rounding of the stiffness turns a free mode towards held ones, whose forces then act along it.
-  const Eigen::MatrixXd coupling = sizes.transpose() * system.stiffness_rounding * sizes;
-  for (Eigen::Index k = 0; k < force.size(); ++k) {
-    for (Eigen::Index l = 0; l < force.size(); ++l) {
-      if (modes.is_free(k) && !modes.is_free(l))
-        rounding[k] += coupling(k, l) / std::abs(modes.omega_squared[l]) * std::abs(force[l]);
-    }
-  }
+  const Eigen::VectorXd rounding = V.cwiseAbs().transpose() * system.force_rounding;
   const double largest_acceleration = largest_natural(model, independent, V * force);
   stiffest = std::max(modes.omega_squared.cwiseAbs().maxCoeff(), largest_acceleration / kLargestStep);
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(force.size());
