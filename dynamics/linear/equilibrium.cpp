@@ -21,7 +21,7 @@ constexpr int kMaxNewtonIterations = 200;
 constexpr double kRoundingStep = 1e-10;  // steps below this that stop decreasing are rounding
 constexpr double kWorstRounding = 1e-5;  // largest rounding of a step that is accepted
 constexpr double kStiffestHz = 1e7;      // no vehicle has a faster mode: its stiffness or mass is mistaken
-constexpr double kHidden = 1.0;          // 1/s²: a neutral direction may have more, if rounding hides it
+constexpr double kHidden = 1.0;          // 1/s², rounding of ω² beside which a held motion looks neutral
 
 bool is_stable(const LinearisedSystem& system) {
   const FrequencySolver solver(system.mass, system.damping, system.stiffness, system.stiffness_rounding);
@@ -66,6 +66,7 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
   return neutral;
 }
 
+// @throws support::NumericalError at a stiffness whose rounding hides that of other motions
 void require_moderate_stiffness(const Model& model, const LinearisedSystem& system, const ModalForce& modal) {
   Eigen::Index stiffest = 0;
   const double fastest =

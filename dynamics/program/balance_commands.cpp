@@ -38,7 +38,8 @@ void warn_of_rounding(const Equilibrium& equilibrium, std::vector<RunWarning>& w
 }
 
 // Modes whose frequency rounding leaves open: by more than a ten-thousandth, or, of one that is taken for
-// rigid, by more than a hundredth of the lowest other one and of a pendulum of the vehicle's size.
+// rigid, by more than a hundredth of the lowest other one or, if that is lower, of the frequency of a
+// pendulum of the vehicle's size.
 void warn_of_rounded_modes(const Model& model, const std::vector<VehicleMode>& modes,
                            std::vector<RunWarning>& warnings) {
   constexpr double kExact = 1e-4, kRigid = 1e-2;

@@ -29,7 +29,7 @@ ALLOWED_SHARE = 0.01  # error of peak and r.m.s. of the acceleration and of the 
 
 
 BASELINE_MODES = (0, 2, 4)  # with more modes the dense program takes minutes
-DRAWN_MODES = 2  # or the first number that is measured: then every rung of the ladder is, for the picture
+DRAWN_MODES = 2  # every rung is measured for the picture; without 2 modes it shows the first number asked for
 
 Key = tuple[str, int, str]  # run, modes, method
 Rungs = dict[Key, "Rung | None"]
