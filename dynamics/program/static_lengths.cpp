@@ -100,12 +100,17 @@ class StaticSprings {
     const Model held = make_balance(vehicle);
     for (Eigen::Index i = 0; i < size(); ++i)
       vehicle.forces[force(i)].parameters = std::move(kept[static_cast<std::size_t>(i)]);
+    // The held springs have no internal states; those of other elements begin at zero, as in the drawing.
+    Eigen::VectorXd q_held = Eigen::VectorXd::Zero(held.num_coordinates);
+    const int bodies = held.first_state();
+    q_held.head(bodies) = q.head(bodies);
     try {
-      q = find_equilibrium(held, q).q;
+      q_held = find_equilibrium(held, q_held).q;
     } catch (const support::NumericalError&) {
       return targets;
     }
-    const Eigen::VectorXd lengths = calc_lengths(held, q);
+    q.head(bodies) = q_held.head(bodies);
+    const Eigen::VectorXd lengths = calc_lengths(held, q_held);
     Eigen::VectorXd free_lengths = targets;
     for (Eigen::Index i = 0; i < size(); ++i) {
       const double load = make_held(targets[i], weight).spring.value(targets[i] - lengths[i]);

@@ -1,8 +1,11 @@
 #include "dynamics/system/partitioned_equations.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "tools/support/dense/wide_product.h"
 
@@ -35,6 +38,10 @@ PartitionedEquations::PartitionedEquations(const Model& model)
 }
 
 void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorXd& q) {
+  if (q.size() != model_->num_coordinates) {
+    throw std::invalid_argument(fmt::format("PartitionedEquations: {} positions for {} coordinates", q.size(),
+                                            model_->num_coordinates));
+  }
   accept_motion(time, q, Eigen::VectorXd::Zero(model_->num_coordinates));
   mutable_terms().update_positions(time, q);
   mutable_terms().update_jacobian();

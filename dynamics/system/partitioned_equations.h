@@ -32,6 +32,7 @@ class PartitionedEquations {
   explicit PartitionedEquations(const Model& model);
 
   /// Chooses the partition at q, which has to satisfy the constraints closely, and accepts q at rest.
+  /// @param q  num_coordinates   @throws std::invalid_argument if it has another size
   void choose_partition_at(double time, const Eigen::VectorXd& q);
   const Partition& partition() const { return partition_; }
   int num_freedoms() const { return num_freedoms_; }

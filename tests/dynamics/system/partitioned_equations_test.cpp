@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include "dynamics/linear/assembly.h"
@@ -49,6 +50,13 @@ struct Chain {
 };
 
 }  // namespace
+
+TEST_CASE("Positions of another model are refused", "[system]") {
+  const Chain chain;
+  PartitionedEquations equations(chain.model);
+  const VectorXd q = VectorXd::Zero(chain.model.num_coordinates - 1);
+  CHECK_THROWS_AS(equations.choose_partition_at(0.0, q), std::invalid_argument);
+}
 
 TEST_CASE("Fast and plain evaluator agree on a chain of crooked flexible bodies in any position",
           "[system]") {
