@@ -24,6 +24,13 @@ Rows calc_coupling(const Eigen::SparseMatrix<double>& mass, const Eigen::SparseM
   return rows * scale.asDiagonal();
 }
 
+// Of a row, which may have no columns: of those, Eigen defines no norm.
+double calc_squared_norm(const Rows& rows, int row) {
+  double sum = 0.0;
+  for (Rows::InnerIterator entry(rows, row); entry; ++entry) sum += entry.value() * entry.value();
+  return sum;
+}
+
 class Divider {
  public:
   Divider(const MatrixSystem& system, const Eigen::SparseMatrix<double>& symmetric,
@@ -45,7 +52,7 @@ class Divider {
         std::erase_if(waiting_, [&](int row) { return std::binary_search(rows.begin(), rows.end(), row); });
       } else {
         const int row = waiting_.front();
-        add(odd_.row(row).squaredNorm() > even_.row(row).squaredNorm(), {row, {{row, 1.0}}});
+        add(calc_squared_norm(odd_, row) > calc_squared_norm(even_, row), {row, {{row, 1.0}}});
         waiting_.erase(waiting_.begin());
       }
     }
@@ -64,8 +71,8 @@ class Divider {
     return rows;
   }
   bool is_mixed(int row) const {
-    const double even = even_.row(row).norm(), odd = odd_.row(row).norm();
-    return std::min(even, odd) > kPure * std::max(even, odd);
+    const double even = calc_squared_norm(even_, row), odd = calc_squared_norm(odd_, row);
+    return std::min(even, odd) > kPure * kPure * std::max(even, odd);
   }
   void add(bool is_odd, ModalMotion motion) {
     (is_odd ? divided_.antisymmetric : divided_.symmetric).push_back(std::move(motion));

@@ -230,6 +230,8 @@ void GeneralizedAlphaStep::remove_vibration(double time, const Vector& v_dot, co
   const double share = (time - a.time) / (b.time - a.time);
   error_ = v_dot - (1.0 - share) * a.v_dot - share * b.v_dot;
   scaled_phi_ = factored_weights_.acceleration / factored_weights_.position * phi;
+  SystemTerms& terms = residual_.terms();  // at the end of the step, or where a switch was looked for
+  if (!terms.has(SystemTerms::Term::kMass)) terms.update_mass();
   filter_error(error_, scaled_phi_, error_q_);
   q += factored_weights_.position / factored_weights_.acceleration * error_q_;
 }
