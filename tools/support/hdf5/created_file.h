@@ -15,6 +15,10 @@ namespace sprung::support::hdf5 {
 /// @param keeps_order  whether the root can be listed in the order in which its objects were made
 Hdf5Handle create_file(const std::filesystem::path& path, bool keeps_order = false);
 
+/// From now on nothing of the file's structure goes to the disk between two flushes: what a flush has written
+/// stays readable until the next.
+void hold_structure_between_flushes(std::int64_t file);
+
 /// Removes an attribute, if there is one of this name.
 void remove_attribute(std::int64_t object, const std::string& name);
 

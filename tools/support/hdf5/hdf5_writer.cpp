@@ -290,6 +290,7 @@ void Hdf5Writer::flush() {
     for (auto& [name, dataset] : growing_) dataset.write_replacements();
     hdf5::set_open_mark(file_.get());
     hdf5::check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), "cannot be written");
+    hdf5::hold_structure_between_flushes(file_.get());
   });
 }
 
