@@ -102,14 +102,14 @@ class StaticSprings {
       vehicle.forces[force(i)].parameters = std::move(kept[static_cast<std::size_t>(i)]);
     // The held springs have no internal states; those of other elements begin at zero, as in the drawing.
     Eigen::VectorXd q_held = Eigen::VectorXd::Zero(held.num_coordinates);
-    const int bodies = held.first_state();
-    q_held.head(bodies) = q.head(bodies);
+    const int num_mechanical = held.first_state();
+    q_held.head(num_mechanical) = q.head(num_mechanical);
     try {
       q_held = find_equilibrium(held, q_held).q;
     } catch (const support::NumericalError&) {
       return targets;
     }
-    q.head(bodies) = q_held.head(bodies);
+    q.head(num_mechanical) = q_held.head(num_mechanical);
     const Eigen::VectorXd lengths = calc_lengths(held, q_held);
     Eigen::VectorXd free_lengths = targets;
     for (Eigen::Index i = 0; i < size(); ++i) {

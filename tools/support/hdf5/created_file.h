@@ -17,6 +17,7 @@ Hdf5Handle create_file(const std::filesystem::path& path, bool keeps_order = fal
 
 /// From now on nothing of the file's structure goes to the disk between two flushes: what a flush has written
 /// stays readable until the next.
+/// @param file  from create_file, just flushed
 void hold_structure_between_flushes(std::int64_t file);
 
 /// Removes an attribute, if there is one of this name.
