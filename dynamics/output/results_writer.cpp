@@ -162,12 +162,21 @@ void ResultsWriter::take_over(const PartialResults& partial, const ResultsExtent
   for (const Event& event : partial.read_events(extent.events)) add(event);
 }
 
-void ResultsWriter::write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics) {
+std::string ResultsWriter::write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kTimeBetweenCopies = 100;  // of the time that the last one took
   write_summary(statistics, checkpoint.statistics);
   const std::string bytes = pack_run_state(checkpoint, extent_, statistics);
-  file_.checkpoint(std::string(kCheckpointDataset),
-                   std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+  file_.overwrite(std::string(kCheckpointDataset),
+                  std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
   has_checkpoint_ = true;
+  file_.flush();
+  const Clock::time_point start = Clock::now();
+  if (start < next_copy_) return {};
+  const std::string problem = file_.copy_to_partial();
+  const Clock::time_point end = Clock::now();
+  next_copy_ = end + kTimeBetweenCopies * (end - start);
+  return problem;
 }
 
 void ResultsWriter::write_summary(const RunStatistics& statistics, const TransientStatistics& transient) {

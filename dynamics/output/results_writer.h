@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -52,8 +53,8 @@ struct ResultsExtent {
   std::size_t events = 0;
 };
 
-/// Writes the results file during a run (dynamics/output/results.md). Its name is NAME.partial.h5 until the
-/// run is complete. Checked by tests/dynamics/program/output_test.py, resume_test.py
+/// Writes the results file during a run (dynamics/output/results.md). Checked by
+/// tests/dynamics/program/output_test.py, resume_test.py
 class ResultsWriter {
  public:
   /// @throws support::InputError if the file cannot be written
@@ -67,9 +68,10 @@ class ResultsWriter {
   void add(const Snapshot& snapshot);
   void add(const Event& event);
 
-  /// What has been added can be read from here on under the partial name, even if the program is killed, with
-  /// the summary up to the checkpoint and all that the run needs to continue from it.
-  void write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics);
+  /// Writes what has been added, the summary up to the checkpoint and all that the run needs to continue from
+  /// it; then copies the file to the partial name, unless copies would take more than 1 % of the time.
+  /// @return "" or why it could not be copied
+  std::string write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics);
   /// Writes the summary of what has been added, or writes it anew.
   void write_summary(const RunStatistics& statistics, const TransientStatistics& transient);
 
@@ -105,6 +107,7 @@ class ResultsWriter {
   State last_;  // at the last output; of a run that is resumed, before its first one at the checkpoint
   ResultsExtent extent_;
   bool has_checkpoint_ = false;
+  std::chrono::steady_clock::time_point next_copy_;  // no earlier; the first one comes at once
 };
 
 }  // namespace sprung::dynamics

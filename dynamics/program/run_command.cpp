@@ -164,7 +164,7 @@ WrittenRun open_results(const RunOutput& output, const ResultsHeader& header, Ru
   WrittenRun run{std::make_unique<ResultsWriter>(output.results, header), std::nullopt};
   if (!state) return run;
   run.writer->take_over(PartialResults(output.results, header), state->extent, state->checkpoint);
-  run.writer->write_checkpoint(state->checkpoint, statistics);
+  run.writer->write_checkpoint(state->checkpoint, statistics);  // if it is not copied, the older one stays
   run.checkpoint = std::move(state->checkpoint);
   return run;
 }
@@ -177,6 +177,21 @@ void print_resumption(std::FILE* out, const std::optional<Checkpoint>& checkpoin
   }
 }
 
+// Says once when checkpoints can no longer be copied.
+void write_checkpoint(ResultsWriter& writer, const Checkpoint& checkpoint, const RunStatistics& statistics,
+                      bool& is_copied, support::ProgressBar& progress, std::FILE* err) {
+  const std::string problem = writer.write_checkpoint(checkpoint, statistics);
+  if (!problem.empty() && is_copied) {
+    progress.finish();
+    support::print(
+        err,
+        "warning: the results up to t = {:.6g} s could not be copied to {}: {}; the run goes on, but "
+        "a kill would cost what follows the last copy\n",
+        checkpoint.state.time, writer.partial().string(), problem);
+  }
+  is_copied = problem.empty();
+}
+
 // Runs the model in time and passes its results to `statistics` and to the writer, if there is one. A run
 // that is interrupted or fails leaves a file with the results up to there.
 TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& options, const WrittenRun& run,
@@ -187,7 +202,8 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   ResultsWriter* writer = run.writer.get();
   const double cpu_before = cpu_time();
   const double start = wall_time();
-  double storing = 0.0;  // wall time of what is done with outputs and checkpoints [s]
+  bool is_copied = true;  // the last checkpoint, as far as it was due
+  double storing = 0.0;   // wall time of what is done with outputs and checkpoints [s]
   options.on_output = [&](const Snapshot& snapshot) {
     storing -= wall_time();
     sections.update(snapshot.terms(), snapshot.multipliers(), snapshot.q, snapshot.v, snapshot.v_dot);
@@ -203,7 +219,7 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   };
   options.on_checkpoint = [&](const Checkpoint& checkpoint) {
     storing -= wall_time();
-    if (writer) writer->write_checkpoint(checkpoint, statistics);
+    if (writer) write_checkpoint(*writer, checkpoint, statistics, is_copied, progress, err);
     storing += wall_time();
   };
   options.on_step = [&](double time) {

@@ -3,6 +3,7 @@
 partial file from which the run cannot be resumed is refused and left alone."""
 
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -135,6 +136,17 @@ class ResumeTest(ProgramTestCase):
                 break
         self.assertEqual(code, -signal.SIGKILL)
         self.assertNotEqual(self.partial.stat().st_ino, number)
+        self.assert_resumes(self.resume())
+
+    def test_a_run_whose_disk_becomes_full_behind_a_checkpoint_is_resumed(self):
+        self.partial.unlink()
+        limit = int(0.9 * (self.made / "whole.h5").stat().st_size)
+        process = run_program(
+            make_command("--quiet", "-o", "cut.h5"), cwd=self.folder,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+        )  # fmt: skip
+        self.assert_refused(process, "cannot be written: File too large")
+        self.assertFalse((self.folder / "cut.h5.tmp").exists())
         self.assert_resumes(self.resume())
 
     def test_a_killed_run_whose_histories_are_compressed_and_chosen_is_resumed(self):

@@ -31,7 +31,10 @@ TEST_CASE("compressed histories of a killed program can be read up to its last c
     }
     for (int row = 1; row <= kill_at; ++row) {
       for (Hdf5GrowingDataset* t : series) writer.append(*t, std::vector{0.5 * row});
-      if (row % 700 == 0) writer.checkpoint();
+      if (row % 700 == 0) {
+        writer.flush();
+        writer.copy_to_partial();
+      }
     }
     return ::raise(SIGKILL);
   });
@@ -55,7 +58,10 @@ TEST_CASE("compressed histories are those that were written, to single precision
     Hdf5GrowingDataset& rows = writer.make_growing("rows", 3, "m", precision);
     for (int row = 0; row < 5000; ++row) {
       writer.append(rows, std::vector{value(row, 0), value(row, 1), value(row, 2)});
-      if (row % 1500 == 1499) writer.checkpoint();
+      if (row % 1500 == 1499) {
+        writer.flush();
+        writer.copy_to_partial();
+      }
     }
     writer.commit();
   }
@@ -110,7 +116,10 @@ TEST_CASE("rounded histories have 17 binary digits, the last one rounded, and ta
     Hdf5GrowingDataset& x = writer.make_growing("x", 0, "N", precision);
     for (int i = 0; i < 5000; ++i) {
       writer.append(x, std::vector{value(i)});
-      if (i == 1500) writer.checkpoint();
+      if (i == 1500) {
+        writer.flush();
+        writer.copy_to_partial();
+      }
     }
     for (const double exact : {0.0, 65537.0, 131071.0, 1e-40}) writer.append(x, std::vector{exact});
     writer.commit();

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iterator>
 #include <stdexcept>
@@ -29,7 +31,8 @@ enum Outcome : int {
   kWrongMessage = 11,
   kLeftBehind = 12,
   kStillOpen = 13,
-  kUnusable = 14
+  kUnusable = 14,
+  kAtTheEnd = 15
 };
 
 void limit_file_size(rlim_t bytes) {
@@ -82,7 +85,8 @@ void write_checkpoints(Hdf5Writer& writer) {
   Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
   for (int i = 0; i < 1000; ++i) {
     writer.append(t, std::vector<double>(1000, 0.25));
-    writer.checkpoint();
+    writer.flush();
+    writer.copy_to_partial();
   }
   writer.commit();
 }
@@ -181,25 +185,76 @@ TEST_CASE(
   CHECK(result.output.empty());
 }
 
-TEST_CASE("a write that fails leaves what was there at the last checkpoint, readable") {
+// Limits at small steps meet each part of a flush, and of the closing of a file, in which a chunk is written.
+TEST_CASE("a disk that becomes full at any moment leaves what was flushed before, readable") {
+  constexpr int kRowsPerFlush = 300, kFlushes = 17;
+  const TemporaryFolder folder;
+  int failures = 0, failed_closings = 0;
+  for (rlim_t limit = 30000; failures == 0 || limit < 6000000; limit += 23700) {
+    const ChildResult result = run_in_child([&] {
+      limit_file_size(limit);
+      const std::ptrdiff_t num_open = num_descriptors();
+      int flushed = -1;
+      try {
+        Hdf5Writer writer(folder / "a.h5", folder / "a.partial.h5");
+        Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
+        Hdf5GrowingDataset& x = writer.make_growing("x", 2, "m", Hdf5Precision::kCompressedSingle);
+        Hdf5GrowingDataset& late = writer.make_growing("late", 40, "N");
+        for (int row = 1; row <= kRowsPerFlush * kFlushes; ++row) {
+          writer.append(t, std::vector{1.0 * row});
+          writer.append(x, std::vector{std::sin(row), std::cos(1e3 * row)});
+          if (row % kRowsPerFlush != 0) continue;
+          // Its first chunk would fit where the state was.
+          writer.append(writer.make_growing(fmt::format("begun {}", row), 20, "N"), std::vector<double>(20));
+          writer.overwrite("state", std::vector(164000, static_cast<std::uint8_t>(row / kRowsPerFlush)));
+          writer.flush();
+          flushed = row;
+        }
+        writer.append(late, std::vector<double>(4000, 0.5));
+        writer.commit();
+      } catch (const InputError&) {
+        if (num_descriptors() != num_open) return kStillOpen;
+        if (std::filesystem::exists(folder / "a.h5.tmp")) return kLeftBehind;
+        if (flushed < 0) return kAsExpected;
+        const Hdf5Reader partial(folder / "a.partial.h5", Hdf5Reader::Compression::kAllowed);
+        if (partial.reals("t", {flushed}).back() != flushed) return kUnusable;
+        if (partial.reals("x", {flushed, 2})[1] != static_cast<float>(std::cos(1e3))) return kUnusable;
+        if (partial.integers("state", {164000})[7] != flushed / kRowsPerFlush) return kUnusable;
+        return flushed == kRowsPerFlush * kFlushes ? kAtTheEnd : kAsExpected;
+      }
+      return kNoError;
+    });
+    INFO("limit " << limit << ", signal " << result.signal << ", output " << result.output);
+    if (result.exit_code == kNoError) break;
+    CHECK((result.exit_code == kAsExpected || result.exit_code == kAtTheEnd));
+    ++failures;
+    if (result.exit_code == kAtTheEnd) ++failed_closings;
+    std::filesystem::remove(folder / "a.partial.h5");
+  }
+  CHECK(failures > 10);
+  CHECK(failed_closings > 0);
+}
+
+TEST_CASE("a copy that fails leaves the last one, and the writer goes on") {
   const TemporaryFolder folder;
   const ChildResult result = run_in_child([&] {
+    Hdf5Writer writer(folder / "a.h5", folder / "a.partial.h5");
+    Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
+    writer.append(t, std::vector<double>(1500, 0.25));
+    writer.flush();
+    if (!writer.copy_to_partial().empty()) return kWrongMessage;
+    writer.append(t, std::vector<double>(100000, 0.5));
+    writer.flush();
     limit_file_size(300000);
-    const std::ptrdiff_t num_open = num_descriptors();
-    try {
-      Hdf5Writer writer(folder / "a.h5", folder / "a.partial.h5");
-      Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
-      writer.append(t, std::vector<double>(1500, 0.25));
-      writer.checkpoint();
-      writer.append(t, std::vector<double>(100000, 0.5));
-      writer.commit();
-    } catch (const InputError&) {
-      if (num_descriptors() != num_open) return kStillOpen;
-      return Hdf5Reader(folder / "a.partial.h5").reals("t", {1500})[1499] == 0.25 ? kAsExpected : kUnusable;
-    }
-    return kNoError;
+    if (writer.copy_to_partial() != "cannot be written: File too large") return kWrongMessage;
+    if (std::filesystem::exists(folder / "a.partial.h5.tmp")) return kLeftBehind;
+    if (Hdf5Reader(folder / "a.partial.h5").reals("t", {1500})[1499] != 0.25) return kUnusable;
+    lift_limit();
+    writer.append(t, std::vector{0.75});
+    writer.commit();
+    return Hdf5Reader(folder / "a.h5").reals("t", {101501}).back() == 0.75 ? kAsExpected : kUnusable;
   });
   INFO("signal " << result.signal << ", output " << result.output);
   CHECK(result.exit_code == kAsExpected);
-  CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
+  CHECK_FALSE(std::filesystem::exists(folder / "a.partial.h5"));
 }

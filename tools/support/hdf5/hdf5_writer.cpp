@@ -10,8 +10,8 @@
 #include "tools/support/files/output_target.h"
 #include "tools/support/hdf5/chunk_compressor.h"
 #include "tools/support/hdf5/created_file.h"
+#include "tools/support/hdf5/flushed_file.h"
 #include "tools/support/hdf5/hdf5_library.h"
-#include "tools/support/hdf5/open_mark.h"
 
 namespace sprung::support {
 
@@ -62,10 +62,7 @@ void reject_nul(std::string_view text, const std::string& place) {
 }  // namespace
 
 Hdf5Writer::Hdf5Writer(fs::path target, fs::path partial)
-    : target_(std::move(target)),
-      temporary_(temporary_name(target_)),
-      partial_(std::move(partial)),
-      name_(temporary_) {
+    : target_(std::move(target)), temporary_(temporary_name(target_)), partial_(std::move(partial)) {
   if (!partial_.empty() && folder_of(partial_).lexically_normal() != folder_of(target_).lexically_normal()) {
     throw std::invalid_argument(fmt::format("Hdf5Writer: partial file '{}' is not in the folder of '{}'",
                                             partial_.string(), target_.string()));
@@ -73,7 +70,10 @@ Hdf5Writer::Hdf5Writer(fs::path target, fs::path partial)
   hdf5::initialize();
   check_target(target_);
   check_temporary(target_, temporary_);
-  if (!partial_.empty()) check_temporary(target_, partial_);
+  if (!partial_.empty()) {
+    check_temporary(target_, partial_);
+    remove_left_over(partial_);
+  }
   try {
     unfinished_.emplace(temporary_);
     attempt([this] { file_ = hdf5::create_file(temporary_); });
@@ -280,28 +280,20 @@ void Hdf5Writer::write_full(Hdf5GrowingDataset& dataset) {
   attempt([&] { dataset.write_full(); });
 }
 
-void Hdf5Writer::write_pending() {
-  for (auto& [name, dataset] : growing_) dataset.write_pending();
-}
-
+// What fails until the disk has the space leaves the file as the last flush has left it.
 void Hdf5Writer::flush() {
   attempt([this] {
-    write_pending();
+    for (auto& [name, dataset] : growing_) dataset.write_pending();
+    hdf5::reserve_space(file_.get());
+    is_as_flushed_ = false;
     for (auto& [name, dataset] : growing_) dataset.write_replacements();
-    hdf5::set_open_mark(file_.get());
+    for (const std::string& object : removed_)
+      hdf5::check(H5Ldelete(file_.get(), object.c_str(), H5P_DEFAULT), "an object cannot be removed");
+    removed_.clear();
     hdf5::check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), "cannot be written");
+    is_as_flushed_ = true;
     hdf5::hold_structure_between_flushes(file_.get());
   });
-}
-
-void Hdf5Writer::move_to(const fs::path& name) {
-  if (name == name_) return;
-  std::error_code error;
-  fs::rename(name_, name, error);
-  if (error)
-    throw InputError({.path = target_.string()}, fmt::format("cannot be written: {}", error.message()));
-  name_ = name;
-  unfinished_.reset();  // what was moved once holds a checkpoint
 }
 
 void Hdf5Writer::overwrite(const std::string& dataset, std::span<const double> values) {
@@ -319,52 +311,56 @@ void Hdf5Writer::overwrite(const std::string& dataset, std::span<const double> v
   });
 }
 
+void Hdf5Writer::overwrite(const std::string& dataset, std::span<const std::uint8_t> bytes) {
+  if (has(dataset)) remove(dataset);
+  write(dataset, bytes);
+}
+
+// Its place in the file becomes free with the next flush: until then the file on the disk refers to it.
 void Hdf5Writer::remove(const std::string& object) {
   open_object_.reset();
+  const std::string name = fmt::format(".removed {}", removed_.size());
   attempt([&] {
-    hdf5::check(H5Ldelete(file_.get(), object.c_str(), H5P_DEFAULT),
+    hdf5::check(H5Lmove(file_.get(), object.c_str(), H5L_SAME_LOC, name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                 fmt::format("'{}' cannot be removed", object));
   });
+  removed_.push_back(name);
   const std::string path = from_root(object);
   std::erase_if(objects_, [&](const std::string& one) { return one == path || one.starts_with(path + "/"); });
 }
 
-// The old bytes are removed after all else is written: nothing can be written in their place before the next
-// flush, until which the file on the disk refers to them.
-void Hdf5Writer::replace(const std::string& dataset, std::span<const std::uint8_t> bytes) {
-  const std::string next = dataset + ".next";
-  write(next, bytes);
-  if (has(dataset)) remove(dataset);
-  attempt([&] {
-    hdf5::check(H5Lmove(file_.get(), next.c_str(), H5L_SAME_LOC, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                fmt::format("'{}' cannot be written", dataset));
-  });
-  objects_.erase(from_root(next));
-  objects_.insert(from_root(dataset));
-}
-
-void Hdf5Writer::checkpoint(const std::string& dataset, std::span<const std::uint8_t> bytes) {
-  if (partial_.empty()) throw std::invalid_argument("Hdf5Writer::checkpoint: the partial file has no name");
-  attempt([this] { write_pending(); });  // what fails here leaves the last checkpoint as it was
-  if (!dataset.empty()) replace(dataset, bytes);
-  move_to(temporary_);
-  flush();
-  attempt([this] { hdf5::clear_open_mark(file_.get()); });
-  move_to(partial_);
+std::string Hdf5Writer::copy_to_partial() {
+  if (partial_.empty() || !is_as_flushed_)
+    throw std::invalid_argument("Hdf5Writer::copy_to_partial: no partial name, or nothing was flushed");
+  const fs::path copy = temporary_name(partial_);
+  const UnfinishedFile unfinished(copy);
+  try {
+    hdf5::copy_flushed(temporary_, copy);
+    rename_to_target(copy, partial_);
+    return {};
+  } catch (const hdf5::Failure& failure) {
+    remove_left_over(partial_);
+    return failure.what();
+  } catch (const InputError& error) {
+    remove_left_over(partial_);
+    return error.what();
+  }
 }
 
 void Hdf5Writer::close() {
-  move_to(temporary_);
   attempt([this] {
     for (auto& [name, dataset] : growing_) dataset.write_last();
   });
   flush();
+  is_as_flushed_ = false;
   growing_.clear();
   open_object_.reset();
   attempt([this] {
     const hid_t id = file_.release();  // after a failed close it must not be touched again
     hdf5::check(H5Fclose(id), "cannot be written");
   });
+  std::error_code ignored;
+  fs::resize_file(temporary_, fs::file_size(temporary_, ignored), ignored);  // gives back what was reserved
 }
 
 void Hdf5Writer::commit() {
@@ -379,20 +375,26 @@ void Hdf5Writer::commit() {
 void Hdf5Writer::keep_partial() {
   if (partial_.empty()) throw std::invalid_argument("Hdf5Writer::keep_partial: the partial file has no name");
   close();
-  move_to(partial_);
+  rename_to_target(temporary_, partial_);
+  unfinished_.reset();
   finished_ = true;
 }
 
-// Removes the file, unless a checkpoint has left it readable, then closes its identifiers. After a failed
-// write HDF5 still holds data, and these closes fail again. Their errors are dropped; the descriptor of the
-// file is closed nevertheless. HDF5's further writes to a readable file are discarded.
+// Leaves what has been flushed under the partial name, or else removes the file, then closes its identifiers.
+// After a failed write HDF5 still holds data, and these closes fail again. Their errors are dropped; the
+// descriptor of the file is closed nevertheless.
 void Hdf5Writer::abandon() noexcept {
   std::error_code ignored;
-  if (name_ == partial_) {
-    hdf5::discard_further_writes(file_.get());
-  } else {
-    fs::remove(name_, ignored);
+  bool is_kept = false;
+  if (is_as_flushed_ && !partial_.empty()) {
+    try {
+      hdf5::keep_as_flushed(file_.get());
+      fs::rename(temporary_, partial_);
+      is_kept = true;
+    } catch (const std::exception&) {  // the last copy stays
+    }
   }
+  if (!is_kept) fs::remove(temporary_, ignored);
   growing_.clear();
   open_object_.reset();
   file_.reset();

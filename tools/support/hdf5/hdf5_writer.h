@@ -91,16 +91,19 @@ class Hdf5Writer {
     if (dataset.advance()) write_full(dataset);
   }
   void append_text(Hdf5GrowingDataset& dataset, std::string_view text);  ///< UTF-8 without NUL
-  void flush();  ///< writes all appended rows to the file
 
-  /// All that was appended can be read from here on under the partial name, even if the program is killed.
-  /// While it goes on writing, the file has the partial name except during the next call: whoever finds a
-  /// file of that name finds it readable.
-  /// @param dataset  where `bytes` are written, in place of those of the last checkpoint; "" for none
-  void checkpoint(const std::string& dataset = {}, std::span<const std::uint8_t> bytes = {});
+  /// Writes all that was appended, and the structure of the file. If a later call fails before it has changed
+  /// what is there, the destructor leaves the file as it is now under the partial name.
+  void flush();
+  /// Copies the file, which has just been flushed, to the partial name, so that it can be read even if the
+  /// program is killed. Whenever that happens, a file of that name is whole.
+  /// @return "" or why there is no new copy, mostly a full disk; that of before is still there then
+  std::string copy_to_partial();
 
   /// Writes a dataset of doubles anew, which was written before with as many values.
   void overwrite(const std::string& dataset, std::span<const double> values);
+  /// Writes a dataset of bytes, or others in its place.
+  void overwrite(const std::string& dataset, std::span<const std::uint8_t> bytes);
   void remove(const std::string& object);  ///< a group or dataset that was made before
 
   void commit();        ///< closes, syncs and renames to the target
@@ -119,22 +122,20 @@ class Hdf5Writer {
   std::int64_t open(const std::string& path);
   std::int64_t prepare_attribute(const std::string& object);
   void write_full(Hdf5GrowingDataset& dataset);
-  void write_pending();
-  void replace(const std::string& dataset, std::span<const std::uint8_t> bytes);
-  void move_to(const std::filesystem::path& name);
   void close();
   void abandon() noexcept;
 
   std::filesystem::path target_, temporary_, partial_;
-  std::filesystem::path name_;  // of the file as it is now: the temporary or the partial one
   Hdf5Handle file_;
   Hdf5Handle open_object_;  // at open_path_, if it is open
   std::string open_path_;
   std::set<std::string> objects_;                // paths of the groups and datasets made
+  std::vector<std::string> removed_;             // where objects are that the next flush removes
   std::unique_ptr<ChunkCompressor> compressor_;  // where a dataset needs it
   std::map<std::string, Hdf5GrowingDataset> growing_;
+  bool is_as_flushed_ = false;  // on the disk, so that it can be read
   bool finished_ = false;
-  std::optional<UnfinishedFile> unfinished_;  // the temporary one, until there is a checkpoint
+  std::optional<UnfinishedFile> unfinished_;
 };
 
 }  // namespace sprung::support

@@ -1,6 +1,5 @@
 #include "tools/support/hdf5/open_mark.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -8,7 +7,6 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
-#include <span>
 
 #include "tools/support/hdf5/hdf5_library.h"
 
@@ -20,7 +18,7 @@ namespace {
 // lengths, flags, four addresses, checksum.
 constexpr std::size_t kVersionPlace = 8, kFlagsPlace = 11, kChecksumPlace = 44;
 using Superblock = std::array<unsigned char, kChecksumPlace + 4>;
-constexpr unsigned char kVersion = 3, kOpenForWriting = 1;
+constexpr unsigned char kVersion = 3;
 
 // Three words of state, mixed with each 12 bytes.
 struct State {
@@ -67,14 +65,9 @@ std::uint32_t calc_checksum(const Superblock& superblock) {
   return state.c;
 }
 
-int find_descriptor(hid_t file) {
-  void* handle = nullptr;
-  check(H5Fget_vfd_handle(file, H5P_DEFAULT, &handle), "the file's descriptor cannot be had");
-  return *static_cast<int*>(handle);
-}
+}  // namespace
 
-void change_mark(hid_t file, bool is_open) {
-  const int descriptor = find_descriptor(file);
+void clear_open_mark(int descriptor) {
   Superblock superblock{};
   const auto size = static_cast<ssize_t>(superblock.size());
   if (::pread(descriptor, superblock.data(), superblock.size(), 0) != size ||
@@ -82,7 +75,7 @@ void change_mark(hid_t file, bool is_open) {
       read_word(&superblock[kChecksumPlace]) != calc_checksum(superblock)) {
     throw Failure("the file's superblock cannot be read");
   }
-  superblock[kFlagsPlace] = is_open ? kOpenForWriting : 0;
+  superblock[kFlagsPlace] = 0;
   const std::uint32_t checksum = calc_checksum(superblock);
   for (std::size_t i = 0; i < 4; ++i) {
     superblock[kChecksumPlace + i] = static_cast<unsigned char>(checksum >> 8 * i);
@@ -90,24 +83,6 @@ void change_mark(hid_t file, bool is_open) {
   if (::pwrite(descriptor, superblock.data(), superblock.size(), 0) != size) {
     throw Failure(fmt::format("cannot be written: {}", std::strerror(errno)));
   }
-}
-
-}  // namespace
-
-void discard_further_writes(std::int64_t file) noexcept {
-  void* handle = nullptr;
-  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) < 0) return;
-  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  ::dup2(nowhere, *static_cast<int*>(handle));
-  ::close(nowhere);
-}
-
-void set_open_mark(std::int64_t file) {
-  change_mark(file, true);
-}
-
-void clear_open_mark(std::int64_t file) {
-  change_mark(file, false);
 }
 
 }  // namespace sprung::support::hdf5

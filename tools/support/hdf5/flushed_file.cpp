@@ -1,0 +1,84 @@
+#include "tools/support/hdf5/flushed_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/sendfile.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "tools/support/hdf5/hdf5_library.h"
+#include "tools/support/hdf5/open_mark.h"
+
+namespace sprung::support::hdf5 {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr off_t kStructureOfFlush = off_t{1} << 16U;  // bytes
+
+int find_descriptor(hid_t file) {
+  void* handle = nullptr;
+  check(H5Fget_vfd_handle(file, H5P_DEFAULT, &handle), "the file's descriptor cannot be had");
+  return *static_cast<int*>(handle);
+}
+
+Failure cannot_be_written(int reason) {
+  return Failure(fmt::format("cannot be written: {}", std::strerror(reason)));
+}
+
+struct Descriptor {
+  Descriptor(const fs::path& path, int flags) : value(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+    if (value < 0) throw cannot_be_written(errno);
+  }
+  ~Descriptor() { ::close(value); }
+  Descriptor(const Descriptor&) = delete;
+  int value;
+};
+
+// Copies from where the descriptors are. Some file systems share the content of both files from then on;
+// others cannot copy by themselves. @return the bytes copied, 0 at the end, -1 for an error
+ssize_t copy_part(int source, int target) {
+  constexpr std::size_t kMost = std::size_t{1} << 30U;
+  const ssize_t count = ::copy_file_range(source, nullptr, target, nullptr, kMost, 0);
+  if (count >= 0 || errno == ENOSPC || errno == EDQUOT || errno == EFBIG || errno == EIO) return count;
+  return ::sendfile(target, source, nullptr, kMost);
+}
+
+}  // namespace
+
+void reserve_space(std::int64_t file) {
+  haddr_t end = 0;
+  check(H5Fget_eoa(file, &end), "the end of the file cannot be had");
+  if (::fallocate(find_descriptor(file), FALLOC_FL_KEEP_SIZE, 0,
+                  static_cast<off_t>(end) + kStructureOfFlush) == 0) {
+    return;
+  }
+  if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG) throw cannot_be_written(errno);
+}
+
+void keep_as_flushed(std::int64_t file) {
+  const int descriptor = find_descriptor(file);
+  clear_open_mark(descriptor);
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  ::dup2(nowhere, descriptor);
+  ::close(nowhere);
+}
+
+void copy_flushed(const fs::path& file, const fs::path& copy) {
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  if (error) throw cannot_be_written(error.value());
+  const auto space = fs::space(file, error);
+  if (!error && space.available / 2 < size) throw cannot_be_written(ENOSPC);
+  const Descriptor source(file, O_RDONLY), target(copy, O_RDWR | O_CREAT | O_TRUNC);
+  while (const ssize_t count = copy_part(source.value, target.value)) {
+    if (count < 0) throw cannot_be_written(errno);
+  }
+  clear_open_mark(target.value);
+}
+
+}  // namespace sprung::support::hdf5

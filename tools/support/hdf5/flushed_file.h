@@ -1,0 +1,27 @@
+#pragma once
+
+// Private to this room: a file as H5Fflush has left it on the disk.
+
+#include <cstdint>
+#include <filesystem>
+
+namespace sprung::support::hdf5 {
+
+/// Asks the system for the space of a flush that is to follow, where the file system can. A disk that is full
+/// then says so before the flush has changed the file.
+/// @param file  identifier of a file that is open for writing
+/// @throws Failure if the space is not there
+void reserve_space(std::int64_t file);
+
+/// Leaves the file as it is on the disk, readable: what HDF5 writes from now on, as when it closes the file,
+/// is lost.
+/// @throws Failure if the file cannot be made readable
+void keep_as_flushed(std::int64_t file);
+
+/// A readable copy of a file that has just been flushed.
+/// @param copy  gets this content, whatever it was before
+/// @throws Failure with the system's reason, also if less than twice the file's size is free on the disk: a
+/// copy is to leave room for the file itself
+void copy_flushed(const std::filesystem::path& file, const std::filesystem::path& copy);
+
+}  // namespace sprung::support::hdf5
