@@ -185,9 +185,9 @@ void write_checkpoint(ResultsWriter& writer, const Checkpoint& checkpoint, const
     progress.finish();
     support::print(
         err,
-        "warning: the results up to t = {:.6g} s could not be copied to {}: {}; the run goes on, but "
-        "a kill would cost what follows the last copy\n",
-        checkpoint.state.time, writer.partial().string(), problem);
+        "warning: no copy of the results up to t = {:.6g} s: {}; the run goes on, but a kill would cost "
+        "what follows the last copy\n",
+        checkpoint.state.time, problem);
   }
   is_copied = problem.empty();
 }

@@ -335,12 +335,9 @@ std::string Hdf5Writer::copy_to_partial() {
   const fs::path copy = temporary_name(partial_);
   const UnfinishedFile unfinished(copy);
   try {
-    hdf5::copy_flushed(temporary_, copy);
+    attempt([&] { hdf5::copy_flushed(temporary_, copy); });
     rename_to_target(copy, partial_);
     return {};
-  } catch (const hdf5::Failure& failure) {
-    remove_left_over(partial_);
-    return failure.what();
   } catch (const InputError& error) {
     remove_left_over(partial_);
     return error.what();

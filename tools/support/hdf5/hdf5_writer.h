@@ -97,7 +97,7 @@ class Hdf5Writer {
   void flush();
   /// Copies the file, which has just been flushed, to the partial name, so that it can be read even if the
   /// program is killed. Whenever that happens, a file of that name is whole.
-  /// @return "" or why there is no new copy, mostly a full disk; that of before is still there then
+  /// @return "" or the error for which there is no new copy, as of a full disk; that of before is still there
   std::string copy_to_partial();
 
   /// Writes a dataset of doubles anew, which was written before with as many values.
