@@ -63,6 +63,7 @@ void reserve_space(std::int64_t file) {
 void keep_as_flushed(std::int64_t file) {
   const int descriptor = find_descriptor(file);
   clear_open_mark(descriptor);
+  if (::fsync(descriptor) != 0) throw cannot_be_written(errno);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   ::dup2(nowhere, descriptor);
   ::close(nowhere);

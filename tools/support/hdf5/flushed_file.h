@@ -15,7 +15,7 @@ void reserve_space(std::int64_t file);
 
 /// Leaves the file as it is on the disk, readable: what HDF5 writes from now on, as when it closes the file,
 /// is lost.
-/// @throws Failure if the file cannot be made readable
+/// @throws Failure if the file cannot be made readable, or not be written through to the disk
 void keep_as_flushed(std::int64_t file);
 
 /// A readable copy of a file that has just been flushed.

@@ -31,14 +31,16 @@ enum class Hdf5Precision {
 /// Every dataset is chunked, has fletcher32 checksums and no time stamp, so that equal calls give equal
 /// bytes. Missing groups of a path are made. A failure (a full disk, a missing folder) throws InputError with
 /// the file and the system's reason; after that, the writer can only be destroyed. The destructor removes a
-/// file that was not committed or kept. Writing an object twice, attributes of a missing object, or values
-/// that do not fit the shape is a mistake of the caller: std::invalid_argument.
+/// file that was not committed or kept, or leaves it under the partial name as the last flush has left it.
+/// Writing an object twice, attributes of a missing object, or values that do not fit the shape is a mistake of
+/// the caller: std::invalid_argument.
 class Hdf5Writer {
  public:
   /// @param target   final name; an existing file of this name stays unchanged until `commit`. The file is
   ///                 written as `target` + ".tmp".
-  /// @param partial  name for the results before the file is complete, in the same folder; "" for none.
-  ///                 `commit` removes a file of this name that an earlier program has left.
+  /// @param partial  name for what is left of a file that does not become complete, in the same folder; ""
+  /// for
+  ///                 none. `commit` removes a file of this name.
   /// @throws InputError if the folder is missing, the target is not a regular file, or another program is
   /// writing it
   explicit Hdf5Writer(std::filesystem::path target, std::filesystem::path partial = {});
