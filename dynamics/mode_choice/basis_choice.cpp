@@ -30,7 +30,7 @@ std::string describe(const NeglectedShares::Worst& worst, const WatchedQuantitie
 }
 
 std::string percent(double share) {
-  return fmt::format("{:.2g} %", 100.0 * share);
+  return fmt::format("{:.{}g} %", 100.0 * share, share < 0.995 ? 2 : 3);
 }
 
 std::vector<Set> find_clusters(const std::vector<CandidateMode>& candidates) {

@@ -11,7 +11,7 @@ using support::Json;
 namespace {
 
 std::string percent(double share) {
-  return fmt::format("{:.2g}", 100.0 * share);
+  return fmt::format("{:.{}g}", 100.0 * share, share < 0.995 ? 2 : 3);
 }
 
 // The shares of a mode, in the order of the table's columns.
@@ -46,7 +46,7 @@ std::string summarise_choice(const BasisChoice& choice) {
 
 std::string format_choice(const BasisChoice& choice) {
   support::TextTable table({"body", "mode", "Hz", "displacement r.m.s. %", "peak %", "acceleration r.m.s. %",
-                            "peak %", "forces r.m.s. %", "peak %", "static %", "why"});
+                            "peak %", "forces, moments r.m.s. %", "peak %", "static %", "why"});
   const bool is_measured = !choice.frequency_hz.empty();
   for (const ModeVerdict& verdict : choice.verdicts) {
     std::vector<std::string> cells{verdict.mode.body, fmt::format("{}", verdict.mode.number),

@@ -127,7 +127,9 @@ StoredPrecision StoragePlan::precision(const StoredHistory& history) const {
 }
 
 std::string describe_storage(const StoragePlan& plan, const OutputSettings& settings) {
-  std::string text = plan.size() < 0.1 ? "less than 0.1 MB" : fmt::format("about {:.2g} MB", plan.size());
+  std::string text = plan.size() < 0.1
+                         ? "less than 0.1 MB"
+                         : fmt::format("about {:.{}g} MB", plan.size(), plan.size() < 99.5 ? 2 : 4);
   if (plan.reductions().empty()) return text;
   return text + fmt::format("; for output.size = {:g} MB{}: {}", settings.size,
                             plan.size() > settings.size ? ", which is not reached" : "",

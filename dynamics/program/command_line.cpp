@@ -48,7 +48,7 @@ int run_arguments(const std::vector<std::string>& arguments, RunRequest request)
       "Exit codes: 0 good, 1 a check failed (results are written, but not to be trusted), 2 bad input, 3 "
       "numerics, 130 interrupted");
   app.require_subcommand(1);
-  app.set_version_flag("--version", SPRUNG_VERSION);
+  app.set_version_flag("--version", std::string("sprung-dynamics ") + SPRUNG_VERSION);
 
   request.superelement_folder = ".";
   RunOutput output;

@@ -101,8 +101,8 @@ std::string format_summary(const Superelement& s) {
   const InertiaInvariants& inertia = s.inertia;
   const Eigen::Vector2d center = calc_center(s);
   const double central = inertia.second_moment - inertia.first_moment.squaredNorm() / inertia.mass;
-  std::string text = fmt::format("Superelement {}: {} nodes, {} elements, {} of {} modes\n\n", s.name,
-                                 s.num_nodes(), s.elements.cols(), s.num_modes(), s.num_elastic_dofs);
+  std::string text = fmt::format("Superelement {}: {} nodes, {} elements, {} vectors for {} freedoms\n\n",
+                                 s.name, s.num_nodes(), s.elements.cols(), s.num_modes(), s.num_elastic_dofs);
   text += fmt::format("mass                              {:.6g} kg\n", inertia.mass);
   text += fmt::format("centre of mass                    ({:.6g}, {:.6g}) m from the reference node\n",
                       center.x(), center.y());

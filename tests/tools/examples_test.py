@@ -1,5 +1,6 @@
 """The examples in every tool's --help: each runs as it stands there, in a folder that holds the files it names.
-Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS); run-truck's example is in run_truck_test.py."""
+The design in reduce/README.md. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS); run-truck's example is in
+run_truck_test.py."""
 
 import os
 import shlex
@@ -138,6 +139,18 @@ class BashTools(Examples):
                         given = [word for word in words[1:] if word != "--sanitize"]
                         self.assertTrue(calls[-1].endswith(" ".join(given)), calls[-1])
                         self.assertEqual("--preset asan" in calls[-1], "--sanitize" in words, calls[-1])
+
+
+class Design(ToolTestCase):
+    def test_the_design_in_the_readme_gives_the_frame_that_it_says(self):
+        text = (ROOT / "reduce/README.md").read_text(encoding="utf-8")
+        said, _, rest = text.partition("```toml\n")
+        (self.folder / "frame.toml").write_text(rest.partition("```\n")[0], encoding="utf-8")
+        printed = run_program([os.environ["SPRUNG_REDUCE"], "build", "frame.toml"], cwd=self.folder, check=True).stdout
+        self.assertIn("1 free mode from 34.3", printed)
+        self.assertIn("5 residual vectors", printed)
+        self.assertIn("interface flexibility within 0.13 % up to 60 Hz (proved)", printed)
+        self.assertRegex(said, r"one\s+free\s+mode \(34\.3 Hz\) and\s+five\s+residual vectors,[^.]*0\.13 %")
 
 
 class Completeness(ToolTestCase):

@@ -55,6 +55,15 @@ class Guarded(ToolTestCase):
                 process.send_signal(number)
                 self.assertEqual(self.finish(process)[0], code)
 
+    def test_an_interruption_while_a_command_is_imported_ends_it_in_one_line(self):
+        # As numpy does, it makes another error of one that is raised within it.
+        lines = ("import os, signal", "try:", "    os.kill(os.getpid(), signal.SIGINT)")
+        text = "\n".join([*lines, "except BaseException:", "    raise ImportError", ""])
+        (self.folder / "interrupted_module.py").write_text(text)
+        body = ["from sprung_tools.terminal.command import import_interruptibly", "sys.path.insert(0, '.')"]
+        process = self.start([*body, "import_interruptibly('interrupted_module')"])
+        self.assertEqual(self.finish(process), (130, "", "interrupted\n"))
+
     def test_a_full_disk_for_the_output_is_an_error_in_one_line(self):
         write_ride_results(self.folder / "a.h5")
         for arguments in (("ride", "--help"), ("ride", "a.h5")):

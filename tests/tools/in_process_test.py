@@ -56,7 +56,7 @@ class Commands(ToolTestCase):
 
     def test_help_version_and_wrong_command_lines_are_the_same(self):
         self.assertIn("Exit codes", self.assert_same("--help").printed)
-        self.assertRegex(self.assert_same("--version").printed, r"^\d+\.\d+")
+        self.assertRegex(self.assert_same("--version").printed, r"^sprung-dynamics \d+\.\d+")
         for arguments in ((), ("fly",), ("run",), ("run", CAR, "--fast"), ("run", CAR, "-o", "")):
             outcome = self.assert_same(*arguments)
             self.assertEqual(outcome.exit_code, 2)

@@ -28,7 +28,7 @@ class Results(DynamicsTestCase):
         with h5py.File(self.results, "r") as file:
             self.assertEqual(file.attrs["complete"], 1)
             self.assertEqual(file.attrs["format"], b"sprung-results")
-            version = run_program([PROGRAM, "--version"], check=True).stdout.strip()
+            version = run_program([PROGRAM, "--version"], check=True).stdout.split()[1]
             self.assertEqual(file.attrs["program_version"].decode(), version)
             n = file["time"].shape[0]
             self.assertEqual(n, 51)  # 0 to 0.05 s, every millisecond

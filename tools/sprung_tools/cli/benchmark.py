@@ -32,7 +32,8 @@ QUICK_DURATION = 1.2  # s
 
 def parse_arguments() -> argparse.Namespace:
     parser = make_parser(__doc__, "tools/benchmark --output-dir build/benchmark")
-    parser.add_argument("what", nargs="?", choices=("reduce", "tolerances"), help="something else")
+    what = "what to measure in place of evaluations and runs"
+    parser.add_argument("what", nargs="?", choices=("reduce", "tolerances"), help=what)
     parser.add_argument(
         "--programs", metavar="FOLDER", type=Path, default=ROOT / "build/release", help="where the programs are built"
     )

@@ -1,8 +1,11 @@
 """Starting a command by its name, also where a package that it needs is not installed."""
 
 import importlib
+import os
+import signal
 import sys
 from functools import partial
+from types import FrameType, ModuleType
 from typing import NoReturn
 
 from sprung_tools.terminal.guarded_process import run_guarded
@@ -28,7 +31,7 @@ def load_and_run(name: str) -> NoReturn:
     """Runs main() of sprung_tools/cli/NAME.py, and exits. If a module is missing, it prints a line on stderr and exits
     with code 2."""
     try:
-        run_tool(importlib.import_module(f"sprung_tools.cli.{name}").main)
+        run_tool(import_interruptibly(f"sprung_tools.cli.{name}").main)
     except ModuleNotFoundError as error:
         module = (error.name or "").partition(".")[0]
         if module not in PACKAGES:
@@ -38,3 +41,19 @@ def load_and_run(name: str) -> NoReturn:
             f"{PACKAGES[module]}, or run tools/setup"
         )
         sys.exit(2)
+
+
+def import_interruptibly(name: str) -> ModuleType:
+    """Imports a module. Ctrl-C meanwhile ends the process: raised within an import, it would become other errors."""
+    previous = signal.getsignal(signal.SIGINT)
+    if previous is signal.default_int_handler:
+        signal.signal(signal.SIGINT, end_interrupted)
+    module = importlib.import_module(name)
+    signal.signal(signal.SIGINT, previous)
+    return module
+
+
+def end_interrupted(_number: int, _frame: FrameType | None) -> NoReturn:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    complain("interrupted")
+    os._exit(130)

@@ -3,6 +3,7 @@
 import argparse
 import io
 import os
+import signal
 import sys
 from collections.abc import Callable
 from typing import NoReturn, TextIO
@@ -72,6 +73,7 @@ def run_tool(main: Callable[[], int]) -> NoReturn:
         complain(f"{error.filename or sys.argv[0]}: error: {error.strerror}")
         code = 2
     except KeyboardInterrupt:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the shell and a parent may both send it
         complain("interrupted")
         code = 130
     finally:
