@@ -162,15 +162,18 @@ void ResultsWriter::take_over(const PartialResults& partial, const ResultsExtent
   for (const Event& event : partial.read_events(extent.events)) add(event);
 }
 
-std::string ResultsWriter::write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics) {
-  using Clock = std::chrono::steady_clock;
-  constexpr int kTimeBetweenCopies = 100;  // of the time that the last one took
+void ResultsWriter::write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics) {
   write_summary(statistics, checkpoint.statistics);
   const std::string bytes = pack_run_state(checkpoint, extent_, statistics);
   file_.overwrite(std::string(kCheckpointDataset),
                   std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
   has_checkpoint_ = true;
   file_.flush();
+}
+
+std::string ResultsWriter::copy_if_due() {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kTimeBetweenCopies = 100;  // of the time that the last one took
   const Clock::time_point start = Clock::now();
   if (start < next_copy_) return {};
   const std::string problem = file_.copy_to_partial();

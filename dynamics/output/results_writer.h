@@ -69,9 +69,13 @@ class ResultsWriter {
   void add(const Event& event);
 
   /// Writes what has been added, the summary up to the checkpoint and all that the run needs to continue from
-  /// it; then copies the file to the partial name, unless copies would take more than 1 % of the time.
+  /// it.
+  void write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics);
+  bool has_checkpoint() const { return has_checkpoint_; }
+  /// Copies the file behind a checkpoint to the partial name, unless copies would take more than 1 % of the
+  /// time.
   /// @return "" or why it could not be copied
-  std::string write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics);
+  std::string copy_if_due();
   /// Writes the summary of what has been added, or writes it anew.
   void write_summary(const RunStatistics& statistics, const TransientStatistics& transient);
 

@@ -156,7 +156,7 @@ struct WrittenRun {
 };
 
 // Opens the results; with --resume it takes over those of the partial file, and brings the statistics to its
-// last checkpoint. The partial file stays as it is until the new one holds as much.
+// last checkpoint. The partial file stays as it is until the next checkpoint is copied.
 WrittenRun open_results(const RunOutput& output, const ResultsHeader& header, RunStatistics& statistics) {
   std::optional<PartialResults::RunState> state;
   // Closed again before the writer looks for other writers.
@@ -164,7 +164,7 @@ WrittenRun open_results(const RunOutput& output, const ResultsHeader& header, Ru
   WrittenRun run{std::make_unique<ResultsWriter>(output.results, header), std::nullopt};
   if (!state) return run;
   run.writer->take_over(PartialResults(output.results, header), state->extent, state->checkpoint);
-  run.writer->write_checkpoint(state->checkpoint, statistics);  // if it is not copied, the older one stays
+  run.writer->write_checkpoint(state->checkpoint, statistics);
   run.checkpoint = std::move(state->checkpoint);
   return run;
 }
@@ -177,19 +177,18 @@ void print_resumption(std::FILE* out, const std::optional<Checkpoint>& checkpoin
   }
 }
 
-// Says once when checkpoints can no longer be copied.
-void write_checkpoint(ResultsWriter& writer, const Checkpoint& checkpoint, const RunStatistics& statistics,
-                      bool& is_copied, support::ProgressBar& progress, std::FILE* err) {
-  const std::string problem = writer.write_checkpoint(checkpoint, statistics);
-  if (!problem.empty() && is_copied) {
-    progress.finish();
-    support::print(
-        err,
-        "warning: no copy of the results up to t = {:.6g} s: {}; the run goes on, but a kill would cost "
-        "what follows the last copy\n",
-        checkpoint.state.time, problem);
-  }
-  is_copied = problem.empty();
+// Says once when a checkpoint cannot be copied.
+void copy_checkpoint(ResultsWriter& writer, double time, bool& was_said, support::ProgressBar& progress,
+                     std::FILE* err) {
+  const std::string problem = writer.copy_if_due();
+  if (problem.empty() || was_said) return;
+  was_said = true;
+  progress.finish();
+  support::print(
+      err,
+      "warning: no copy of the results up to t = {:.6g} s: {}; the run goes on, but a kill would cost "
+      "what follows the last copy\n",
+      time, problem);
 }
 
 // Runs the model in time and passes its results to `statistics` and to the writer, if there is one. A run
@@ -202,7 +201,7 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   ResultsWriter* writer = run.writer.get();
   const double cpu_before = cpu_time();
   const double start = wall_time();
-  bool is_copied = true;  // the last checkpoint, as far as it was due
+  bool was_said = false;  // that there is no copy
   double storing = 0.0;   // wall time of what is done with outputs and checkpoints [s]
   options.on_output = [&](const Snapshot& snapshot) {
     storing -= wall_time();
@@ -219,7 +218,10 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   };
   options.on_checkpoint = [&](const Checkpoint& checkpoint) {
     storing -= wall_time();
-    if (writer) write_checkpoint(*writer, checkpoint, statistics, is_copied, progress, err);
+    if (writer) {
+      writer->write_checkpoint(checkpoint, statistics);
+      copy_checkpoint(*writer, checkpoint.state.time, was_said, progress, err);
+    }
     storing += wall_time();
   };
   options.on_step = [&](double time) {
@@ -236,6 +238,14 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
     if (!writer) throw;
     throw support::NumericalError(
         fmt::format("{}; partial results: {}", error.what(), writer->abandon().string()));
+  } catch (const support::InputError&) {  // as of a full disk
+    progress.finish();
+    if (writer && writer->has_checkpoint()) {
+      support::print(
+          err, "the results up to the last checkpoint are left as {}; to continue, run again with --resume\n",
+          writer->partial().string());
+    }
+    throw;
   } catch (const support::DamagedBytes& error) {
     throw support::InputError({.path = writer->partial().string()},
                               fmt::format("cannot be resumed: {}; run without --resume", error.what()));
@@ -247,15 +257,27 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   throw_interrupted(time_reached, statistics, transient, writer, err);
 }
 
+// Files of others are not overwritten, nor results that are called as partial ones are.
+void check_names(const RunOutput& output) {
+  if (output.results.empty()) return;
+  for (const std::filesystem::path& name : {output.results, partial_name(output.results)}) {
+    if (support::is_foreign_file(name, kResultsFormat)) {
+      throw support::InputError(
+          {.path = name.string()},
+          "exists and is no results file, so it is not overwritten; move it or name another with -o");
+    }
+  }
+  if (output.results.stem().extension() == ".partial") {
+    throw support::InputError({.path = output.results.string()},
+                              "is a name of results that are not complete; name others with -o");
+  }
+}
+
 }  // namespace
 
 int run_command(const RunRequest& request, const RunOutput& output) {
   const support::Streams& streams = request.streams;
-  if (support::is_foreign_file(output.results, kResultsFormat)) {
-    throw support::InputError(
-        {.path = output.results.string()},
-        "exists and is no results file, so it is not overwritten; move it or name another with -o");
-  }
+  check_names(output);
   if (output.resume && output.results.empty())
     throw support::InputError({.path = "--resume"}, "needs -o, the name of the results");
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);

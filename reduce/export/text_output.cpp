@@ -5,8 +5,7 @@
 #include <fstream>
 
 #include "tools/support/errors/input_error.h"
-#include "tools/support/files/output_target.h"
-#include "tools/support/files/unfinished_file.h"
+#include "tools/support/files/temporary_file.h"
 
 namespace sprung::reduce {
 
@@ -15,15 +14,12 @@ std::string format_real(double number) {
 }
 
 void write_text_file(const std::filesystem::path& path, std::string_view text) {
-  support::check_target(path);
-  const std::filesystem::path temporary = support::temporary_name(path);
-  support::check_temporary(path, temporary);
-  const support::UnfinishedFile unfinished(temporary);
-  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+  support::TemporaryFile temporary(path);
+  std::ofstream stream(temporary.path(), std::ios::binary | std::ios::trunc);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   if (!stream) throw support::InputError({.path = path.string()}, "could not be written");
-  support::rename_to_target(temporary, path);
+  temporary.rename_to_target();
 }
 
 std::string format_matrix_market(const Eigen::MatrixXd& matrix, std::string_view comment) {

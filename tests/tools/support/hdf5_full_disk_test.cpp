@@ -246,7 +246,8 @@ TEST_CASE("a copy that fails leaves the last one, and the writer goes on") {
     writer.append(t, std::vector<double>(100000, 0.5));
     writer.flush();
     limit_file_size(300000);
-    if (writer.copy_to_partial() != (folder / "a.h5").string() + ": error: cannot be written: File too large")
+    if (writer.copy_to_partial() !=
+        (folder / "a.partial.h5").string() + ": error: cannot be written: File too large")
       return kWrongMessage;
     if (std::filesystem::exists(folder / "a.partial.h5.tmp")) return kLeftBehind;
     if (Hdf5Reader(folder / "a.partial.h5").reals("t", {1500})[1499] != 0.25) return kUnusable;

@@ -6,10 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <system_error>
-
-#include "tools/support/errors/input_error.h"
 
 namespace sprung::support {
 
@@ -17,27 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-InputError cannot_be_written(const fs::path& target, std::string_view reason) {
-  return InputError({.path = target.string()}, fmt::format("cannot be written: {}", reason));
-}
-
-void sync_file(const fs::path& target, const fs::path& written) {
-  const int descriptor = ::open(written.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-  const int reason = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!synced) throw cannot_be_written(target, std::strerror(reason));
-}
-
-// Writes the rename to the disk. Some file systems cannot sync a folder; the file is complete in any case.
-void sync_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
-// Whether another program holds HDF5's lock. A file that cannot be opened is not locked: the attempt to write
+// Whether another program writes it. A file that cannot be opened is not locked: the attempt to write
 // it will give the reason.
 bool is_locked(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -48,6 +25,10 @@ bool is_locked(const fs::path& path) {
 }
 
 }  // namespace
+
+InputError cannot_be_written(const fs::path& target, std::string_view reason) {
+  return InputError({.path = target.string()}, fmt::format("cannot be written: {}", reason));
+}
 
 fs::path folder_of(const fs::path& path) {
   const fs::path folder = path.parent_path();
@@ -79,15 +60,11 @@ void check_target(const fs::path& target) {
   }
 }
 
-void check_temporary(const fs::path& target, const fs::path& temporary) {
+void check_replaceable(const fs::path& target, const fs::path& other) {
   std::error_code ignored;
-  const fs::file_status status = fs::symlink_status(temporary, ignored);
-  if (!fs::exists(status)) return;
-  if (!fs::is_regular_file(status)) {
-    throw cannot_be_written(target, fmt::format("'{}' is in the way", temporary.string()));
-  }
-  if (is_locked(temporary))
-    throw cannot_be_written(target, fmt::format("another writer is at '{}'", temporary.string()));
+  const fs::file_status status = fs::symlink_status(other, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw cannot_be_written(target, fmt::format("'{}' is in the way", other.string()));
 }
 
 fs::path temporary_name(const fs::path& target) {
@@ -99,14 +76,6 @@ void remove_left_over(const fs::path& target) {
   std::error_code ignored;
   if (!fs::is_regular_file(fs::symlink_status(temporary, ignored)) || is_locked(temporary)) return;
   fs::remove(temporary, ignored);
-}
-
-void rename_to_target(const fs::path& temporary, const fs::path& target) {
-  sync_file(target, temporary);
-  std::error_code error;
-  fs::rename(temporary, target, error);
-  if (error) throw cannot_be_written(target, error.message());
-  sync_folder(folder_of(target));
 }
 
 }  // namespace sprung::support

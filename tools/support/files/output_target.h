@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
+
+#include "tools/support/errors/input_error.h"
 
 namespace sprung::support {
 
@@ -8,10 +11,9 @@ namespace sprung::support {
 /// @throws InputError if the folder is missing, or if the target exists and is not a regular file
 void check_target(const std::filesystem::path& target);
 
-/// Checks that the temporary file can be written. A file of that name that an earlier run has left may exist.
-/// @param temporary  the name of `target` until it is complete
-/// @throws InputError if another program has locked it, or if it is not a regular file
-void check_temporary(const std::filesystem::path& target, const std::filesystem::path& temporary);
+/// Checks that a file that belongs to the target is a regular one, or is not there.
+/// @throws InputError that it is in the way
+void check_replaceable(const std::filesystem::path& target, const std::filesystem::path& other);
 
 /// The name of `target` until it is complete.
 std::filesystem::path temporary_name(const std::filesystem::path& target);
@@ -20,9 +22,8 @@ std::filesystem::path temporary_name(const std::filesystem::path& target);
 /// it.
 void remove_left_over(const std::filesystem::path& target);
 
-/// Writes a closed file through to the disk and gives it its final name.
-/// @throws InputError with the system's reason
-void rename_to_target(const std::filesystem::path& temporary, const std::filesystem::path& target);
+/// The error that a target cannot be written.
+InputError cannot_be_written(const std::filesystem::path& target, std::string_view reason);
 
 /// The folder of a path; "." if the path has none.
 std::filesystem::path folder_of(const std::filesystem::path& path);

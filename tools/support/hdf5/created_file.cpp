@@ -35,6 +35,7 @@ Hdf5Handle create_file(const std::filesystem::path& path, bool keeps_order) {
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), what);
   check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), what);
   keep_cache_small(access.get());
+  check(H5Pset_file_locking(access.get(), false, true), what);  // TemporaryFile has its lock
   const Hdf5Handle creation = make_properties(H5P_FILE_CREATE);
   if (keeps_order) {
     check(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), what);

@@ -10,8 +10,8 @@
 
 namespace sprung::support::hdf5 {
 
-/// A new file, open for writing. HDF5 truncates before it takes its lock, so check_temporary has to come
-/// first.
+/// A new file, open for writing, in place of what is there. HDF5 would truncate it before it takes its own
+/// lock, so the caller has to have it locked.
 /// @param keeps_order  whether the root can be listed in the order in which its objects were made
 Hdf5Handle create_file(const std::filesystem::path& path, bool keeps_order = false);
 

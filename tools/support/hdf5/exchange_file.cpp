@@ -1,7 +1,6 @@
 #include "tools/support/hdf5/exchange_file.h"
 
 #include "tools/support/errors/input_error.h"
-#include "tools/support/files/output_target.h"
 #include "tools/support/hdf5/created_file.h"
 #include "tools/support/hdf5/hdf5_library.h"
 #include "tools/support/hdf5/row_matrix.h"
@@ -20,26 +19,14 @@ Hdf5Handle make_variable_string_type() {
 
 }  // namespace
 
-ExchangeFile::ExchangeFile(std::filesystem::path target)
-    : target_(std::move(target)), temporary_(temporary_name(target_)) {
+ExchangeFile::ExchangeFile(std::filesystem::path target) : temporary_(std::move(target)) {
   hdf5::initialize();
-  check_target(target_);
-  check_temporary(target_, temporary_);
-  unfinished_.emplace(temporary_);
   // MBSim's reader takes objects in the order in which they were made.
-  try {
-    attempt([this] { file_ = hdf5::create_file(temporary_, true); });
-  } catch (const InputError&) {
-    remove_left_over(target_);  // on a full disk an empty file was made
-    throw;
-  }
+  attempt([this] { file_ = hdf5::create_file(temporary_.path(), true); });
 }
 
 ExchangeFile::~ExchangeFile() {
-  if (committed_) return;
   file_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
 }
 
 template <typename Function>
@@ -47,7 +34,7 @@ void ExchangeFile::attempt(Function&& function) {
   try {
     function();
   } catch (const hdf5::Failure& failure) {
-    throw InputError({.path = target_.string()}, failure.what());
+    throw InputError({.path = temporary_.target().string()}, failure.what());
   }
 }
 
@@ -142,9 +129,7 @@ void ExchangeFile::commit() {
     const hid_t id = file_.release();
     hdf5::check(H5Fclose(id), "cannot be written");
   });
-  rename_to_target(temporary_, target_);
-  unfinished_.reset();
-  committed_ = true;
+  temporary_.rename_to_target();
 }
 
 }  // namespace sprung::support

@@ -3,12 +3,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tools/support/files/unfinished_file.h"
+#include "tools/support/files/temporary_file.h"
 #include "tools/support/hdf5/hdf5_handle.h"
 
 namespace sprung::support {
@@ -46,10 +45,8 @@ class ExchangeFile {
   void write_array(const std::string& name, std::int64_t file_type, std::int64_t memory_type,
                    const void* values, const std::vector<std::uint64_t>& shape);
 
-  std::filesystem::path target_, temporary_;
-  std::optional<UnfinishedFile> unfinished_;
+  TemporaryFile temporary_;
   Hdf5Handle file_;
-  bool committed_ = false;
 };
 
 }  // namespace sprung::support

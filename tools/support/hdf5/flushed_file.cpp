@@ -5,6 +5,7 @@
 #include <sys/sendfile.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -31,7 +32,7 @@ Failure cannot_be_written(int reason) {
 }
 
 struct Descriptor {
-  Descriptor(const fs::path& path, int flags) : value(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+  Descriptor(const fs::path& path, int flags) : value(::open(path.c_str(), flags | O_CLOEXEC)) {
     if (value < 0) throw cannot_be_written(errno);
   }
   ~Descriptor() { ::close(value); }
@@ -48,22 +49,32 @@ ssize_t copy_part(int source, int target) {
   return ::sendfile(target, source, nullptr, kMost);
 }
 
-}  // namespace
-
-void reserve_space(std::int64_t file) {
-  haddr_t end = 0;
-  check(H5Fget_eoa(file, &end), "the end of the file cannot be had");
-  if (::fallocate(find_descriptor(file), FALLOC_FL_KEEP_SIZE, 0,
-                  static_cast<off_t>(end) + kStructureOfFlush) == 0) {
-    return;
-  }
+void reserve(int descriptor, off_t begin, off_t end) {
+  if (::fallocate(descriptor, FALLOC_FL_KEEP_SIZE, begin, end - begin) == 0) return;
   if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG) throw cannot_be_written(errno);
 }
 
-void keep_as_flushed(std::int64_t file) {
+}  // namespace
+
+// Only where there is none yet: some file systems ask for the space of all, also of what is there.
+void reserve_space(std::int64_t file, const fs::path& path) {
+  haddr_t allocated = 0;
+  check(H5Fget_eoa(file, &allocated), "the end of the file cannot be had");
+  const off_t end = static_cast<off_t>(allocated) + kStructureOfFlush;
+  const Descriptor own(path, O_RDWR);
+  off_t hole = ::lseek(own.value, 0, SEEK_HOLE);  // at the end of the file there is one
+  while (hole >= 0 && hole < end) {
+    const off_t data = ::lseek(own.value, hole, SEEK_DATA);  // -1 behind the last data
+    reserve(own.value, hole, data < 0 ? end : std::min(data, end));
+    if (data < 0) return;
+    hole = ::lseek(own.value, data, SEEK_HOLE);
+  }
+}
+
+void keep_as_flushed(std::int64_t file, std::uintmax_t size) {
   const int descriptor = find_descriptor(file);
+  if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) throw cannot_be_written(errno);
   clear_open_mark(descriptor);
-  if (::fsync(descriptor) != 0) throw cannot_be_written(errno);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   ::dup2(nowhere, descriptor);
   ::close(nowhere);
@@ -71,13 +82,16 @@ void keep_as_flushed(std::int64_t file) {
 
 void copy_flushed(const fs::path& file, const fs::path& copy) {
   std::error_code error;
-  const auto size = fs::file_size(file, error);
+  auto left = fs::file_size(file, error);
   if (error) throw cannot_be_written(error.value());
   const auto space = fs::space(file, error);
-  if (!error && space.available / 2 < size) throw cannot_be_written(ENOSPC);
-  const Descriptor source(file, O_RDONLY), target(copy, O_RDWR | O_CREAT | O_TRUNC);
-  while (const ssize_t count = copy_part(source.value, target.value)) {
-    if (count < 0) throw cannot_be_written(errno);
+  if (!error && space.available / 2 < left) throw cannot_be_written(ENOSPC);
+  const Descriptor source(file, O_RDONLY), target(copy, O_RDWR | O_TRUNC);
+  while (left > 0) {
+    const ssize_t count = copy_part(source.value, target.value);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) throw cannot_be_written(count < 0 ? errno : EIO);
+    left -= static_cast<std::uintmax_t>(count);
   }
   clear_open_mark(target.value);
 }

@@ -9,17 +9,19 @@ namespace sprung::support::hdf5 {
 
 /// Asks the system for the space of a flush that is to follow, where the file system can. A disk that is full
 /// then says so before the flush has changed the file.
-/// @param file  identifier of a file that is open for writing
+/// @param file  identifier of the file at `path`, open for writing
 /// @throws Failure if the space is not there
-void reserve_space(std::int64_t file);
+void reserve_space(std::int64_t file, const std::filesystem::path& path);
 
-/// Leaves the file as it is on the disk, readable: what HDF5 writes from now on, as when it closes the file,
+/// Makes the file readable as a flush has left it; what HDF5 writes from now on, as when it closes the file,
 /// is lost.
-/// @throws Failure if the file cannot be made readable, or not be written through to the disk
-void keep_as_flushed(std::int64_t file);
+/// @param size  of the file behind that flush [bytes]. What was written beyond is given up first: some file
+/// systems need space to change anything
+/// @throws Failure if the file cannot be written
+void keep_as_flushed(std::int64_t file, std::uintmax_t size);
 
 /// A readable copy of a file that has just been flushed.
-/// @param copy  gets this content, whatever it was before
+/// @param copy  an existing file, which gets this content
 /// @throws Failure with the system's reason, also if less than twice the file's size is free on the disk: a
 /// copy is to leave room for the file itself
 void copy_flushed(const std::filesystem::path& file, const std::filesystem::path& copy);

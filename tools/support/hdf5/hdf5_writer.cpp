@@ -62,25 +62,18 @@ void reject_nul(std::string_view text, const std::string& place) {
 }  // namespace
 
 Hdf5Writer::Hdf5Writer(fs::path target, fs::path partial)
-    : target_(std::move(target)), temporary_(temporary_name(target_)), partial_(std::move(partial)) {
-  if (!partial_.empty() && folder_of(partial_).lexically_normal() != folder_of(target_).lexically_normal()) {
-    throw std::invalid_argument(fmt::format("Hdf5Writer: partial file '{}' is not in the folder of '{}'",
-                                            partial_.string(), target_.string()));
-  }
-  hdf5::initialize();
-  check_target(target_);
-  check_temporary(target_, temporary_);
+    : temporary_(std::move(target)), partial_(std::move(partial)) {
+  const fs::path& final_name = temporary_.target();
   if (!partial_.empty()) {
-    check_temporary(target_, partial_);
+    if (folder_of(partial_).lexically_normal() != folder_of(final_name).lexically_normal()) {
+      throw std::invalid_argument(fmt::format("Hdf5Writer: partial file '{}' is not in the folder of '{}'",
+                                              partial_.string(), final_name.string()));
+    }
+    check_replaceable(final_name, partial_);
     remove_left_over(partial_);
   }
-  try {
-    unfinished_.emplace(temporary_);
-    attempt([this] { file_ = hdf5::create_file(temporary_); });
-  } catch (const InputError&) {
-    remove_left_over(target_);  // on a full disk an empty file was made
-    throw;
-  }
+  hdf5::initialize();
+  attempt([this] { file_ = hdf5::create_file(temporary_.path()); });
 }
 
 Hdf5Writer::~Hdf5Writer() {
@@ -92,7 +85,7 @@ void Hdf5Writer::attempt(Function&& function) {
   try {
     function();
   } catch (const hdf5::Failure& failure) {
-    throw InputError({.path = target_.string()}, failure.what());
+    throw InputError({.path = temporary_.target().string()}, failure.what());
   }
 }
 
@@ -284,14 +277,16 @@ void Hdf5Writer::write_full(Hdf5GrowingDataset& dataset) {
 void Hdf5Writer::flush() {
   attempt([this] {
     for (auto& [name, dataset] : growing_) dataset.write_pending();
-    hdf5::reserve_space(file_.get());
+    hdf5::reserve_space(file_.get(), temporary_.path());
     is_as_flushed_ = false;
     for (auto& [name, dataset] : growing_) dataset.write_replacements();
     for (const std::string& object : removed_)
       hdf5::check(H5Ldelete(file_.get(), object.c_str(), H5P_DEFAULT), "an object cannot be removed");
     removed_.clear();
     hdf5::check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), "cannot be written");
-    is_as_flushed_ = true;
+    std::error_code error;
+    flushed_size_ = fs::file_size(temporary_.path(), error);
+    is_as_flushed_ = !error;
     hdf5::hold_structure_between_flushes(file_.get());
   });
 }
@@ -332,14 +327,14 @@ void Hdf5Writer::remove(const std::string& object) {
 std::string Hdf5Writer::copy_to_partial() {
   if (partial_.empty() || !is_as_flushed_)
     throw std::invalid_argument("Hdf5Writer::copy_to_partial: no partial name, or nothing was flushed");
-  const fs::path copy = temporary_name(partial_);
-  const UnfinishedFile unfinished(copy);
   try {
-    attempt([&] { hdf5::copy_flushed(temporary_, copy); });
-    rename_to_target(copy, partial_);
+    TemporaryFile copy(partial_);
+    hdf5::copy_flushed(temporary_.path(), copy.path());
+    copy.rename_to_target();
     return {};
+  } catch (const hdf5::Failure& failure) {
+    return InputError({.path = partial_.string()}, failure.what()).what();
   } catch (const InputError& error) {
-    remove_left_over(partial_);
     return error.what();
   }
 }
@@ -357,14 +352,25 @@ void Hdf5Writer::close() {
     hdf5::check(H5Fclose(id), "cannot be written");
   });
   std::error_code ignored;
-  fs::resize_file(temporary_, fs::file_size(temporary_, ignored), ignored);  // gives back what was reserved
+  const auto size = fs::file_size(temporary_.path(), ignored);
+  if (!ignored) fs::resize_file(temporary_.path(), size, ignored);  // gives back what was reserved
+}
+
+// A closed file is not given up, where it may have taken hours.
+void Hdf5Writer::rename_to(const fs::path& name) {
+  const std::string reason = temporary_.try_rename_to(name);
+  finished_ = true;
+  if (reason.empty()) return;
+  if (partial_.empty()) throw cannot_be_written(temporary_.target(), reason);
+  temporary_.leave();
+  throw cannot_be_written(temporary_.target(),
+                          fmt::format("{}; the file as far as it was written is left as '{}'", reason,
+                                      temporary_.path().string()));
 }
 
 void Hdf5Writer::commit() {
   close();
-  rename_to_target(temporary_, target_);
-  unfinished_.reset();
-  finished_ = true;
+  rename_to(temporary_.target());
   std::error_code ignored;
   if (!partial_.empty()) fs::remove(partial_, ignored);
 }
@@ -372,26 +378,20 @@ void Hdf5Writer::commit() {
 void Hdf5Writer::keep_partial() {
   if (partial_.empty()) throw std::invalid_argument("Hdf5Writer::keep_partial: the partial file has no name");
   close();
-  rename_to_target(temporary_, partial_);
-  unfinished_.reset();
-  finished_ = true;
+  rename_to(partial_);
 }
 
 // Leaves what has been flushed under the partial name, or else removes the file, then closes its identifiers.
 // After a failed write HDF5 still holds data, and these closes fail again. Their errors are dropped; the
 // descriptor of the file is closed nevertheless.
 void Hdf5Writer::abandon() noexcept {
-  std::error_code ignored;
-  bool is_kept = false;
   if (is_as_flushed_ && !partial_.empty()) {
     try {
-      hdf5::keep_as_flushed(file_.get());
-      fs::rename(temporary_, partial_);
-      is_kept = true;
+      hdf5::keep_as_flushed(file_.get(), flushed_size_);
+      temporary_.try_rename_to(partial_);
     } catch (const std::exception&) {  // the last copy stays
     }
   }
-  if (!is_kept) fs::remove(temporary_, ignored);
   growing_.clear();
   open_object_.reset();
   file_.reset();

@@ -5,14 +5,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tools/support/files/unfinished_file.h"
+#include "tools/support/files/temporary_file.h"
 #include "tools/support/hdf5/hdf5_growing_dataset.h"
 #include "tools/support/hdf5/hdf5_handle.h"
 #include "tools/support/hdf5/row_matrix.h"
@@ -32,8 +31,8 @@ enum class Hdf5Precision {
 /// bytes. Missing groups of a path are made. A failure (a full disk, a missing folder) throws InputError with
 /// the file and the system's reason; after that, the writer can only be destroyed. The destructor removes a
 /// file that was not committed or kept, or leaves it under the partial name as the last flush has left it.
-/// Writing an object twice, attributes of a missing object, or values that do not fit the shape is a mistake of
-/// the caller: std::invalid_argument.
+/// Writing an object twice, attributes of a missing object, or values that do not fit the shape is a mistake
+/// of the caller: std::invalid_argument.
 class Hdf5Writer {
  public:
   /// @param target   final name; an existing file of this name stays unchanged until `commit`. The file is
@@ -108,9 +107,11 @@ class Hdf5Writer {
   void overwrite(const std::string& dataset, std::span<const std::uint8_t> bytes);
   void remove(const std::string& object);  ///< a group or dataset that was made before
 
-  void commit();        ///< closes, syncs and renames to the target
+  /// Closes, syncs and renames to the target. With a partial name, a whole file that cannot be renamed is
+  /// left as the temporary one, and the error says so.
+  void commit();
   void keep_partial();  ///< closes the file and leaves it under the partial name (an interrupted run)
-  const std::filesystem::path& temporary() const { return temporary_; }
+  const std::filesystem::path& temporary() const { return temporary_.path(); }
   const std::filesystem::path& partial() const { return partial_; }
 
  private:
@@ -125,9 +126,11 @@ class Hdf5Writer {
   std::int64_t prepare_attribute(const std::string& object);
   void write_full(Hdf5GrowingDataset& dataset);
   void close();
+  void rename_to(const std::filesystem::path& name);
   void abandon() noexcept;
 
-  std::filesystem::path target_, temporary_, partial_;
+  TemporaryFile temporary_;
+  std::filesystem::path partial_;
   Hdf5Handle file_;
   Hdf5Handle open_object_;  // at open_path_, if it is open
   std::string open_path_;
@@ -135,9 +138,9 @@ class Hdf5Writer {
   std::vector<std::string> removed_;             // where objects are that the next flush removes
   std::unique_ptr<ChunkCompressor> compressor_;  // where a dataset needs it
   std::map<std::string, Hdf5GrowingDataset> growing_;
-  bool is_as_flushed_ = false;  // on the disk, so that it can be read
+  bool is_as_flushed_ = false;       // on the disk, so that it can be read
+  std::uintmax_t flushed_size_ = 0;  // of the file then [bytes]
   bool finished_ = false;
-  std::optional<UnfinishedFile> unfinished_;
 };
 
 }  // namespace sprung::support
