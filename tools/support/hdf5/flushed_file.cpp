@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/fs.h>
+#include <sys/ioctl.h>
 #include <sys/sendfile.h>
 #include <unistd.h>
 
@@ -40,13 +42,26 @@ struct Descriptor {
   int value;
 };
 
-// Copies from where the descriptors are. Some file systems share the content of both files from then on;
-// others cannot copy by themselves. @return the bytes copied, 0 at the end, -1 for an error
+// Copies from where the descriptors are, within the system. @return the bytes copied, -1 for an error
 ssize_t copy_part(int source, int target) {
   constexpr std::size_t kMost = std::size_t{1} << 30U;
   const ssize_t count = ::copy_file_range(source, nullptr, target, nullptr, kMost, 0);
   if (count >= 0 || errno == ENOSPC || errno == EDQUOT || errno == EFBIG || errno == EIO) return count;
   return ::sendfile(target, source, nullptr, kMost);
+}
+
+void copy_content(const fs::path& file, int source, int target) {
+  std::error_code error;
+  auto left = fs::file_size(file, error);
+  if (error) throw cannot_be_written(error.value());
+  const auto space = fs::space(file, error);
+  if (!error && space.available / 2 < left) throw cannot_be_written(ENOSPC);
+  while (left > 0) {
+    const ssize_t count = copy_part(source, target);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) throw cannot_be_written(count < 0 ? errno : EIO);
+    left -= static_cast<std::uintmax_t>(count);
+  }
 }
 
 void reserve(int descriptor, off_t begin, off_t end) {
@@ -81,18 +96,9 @@ void keep_as_flushed(std::int64_t file, std::uintmax_t size) {
 }
 
 void copy_flushed(const fs::path& file, const fs::path& copy) {
-  std::error_code error;
-  auto left = fs::file_size(file, error);
-  if (error) throw cannot_be_written(error.value());
-  const auto space = fs::space(file, error);
-  if (!error && space.available / 2 < left) throw cannot_be_written(ENOSPC);
   const Descriptor source(file, O_RDONLY), target(copy, O_RDWR | O_TRUNC);
-  while (left > 0) {
-    const ssize_t count = copy_part(source.value, target.value);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) throw cannot_be_written(count < 0 ? errno : EIO);
-    left -= static_cast<std::uintmax_t>(count);
-  }
+  // Some file systems have both files share their content from then on, which takes no space.
+  if (::ioctl(target.value, FICLONE, source.value) != 0) copy_content(file, source.value, target.value);
   clear_open_mark(target.value);
 }
 
