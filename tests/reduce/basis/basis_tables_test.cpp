@@ -171,7 +171,8 @@ TEST_CASE("the largest bound over the true error of the random frames is that of
     largest = std::max(largest, worst.error / error);
   }
   check_line(
-      fmt::format("| bound over the true error, {} random frames with λ_c from 1.7 F: largest | {:.2f} |",
+      fmt::format("| bound over the true error, {} random frames whose first mode left out lies at 1.7 times "
+                  "the end of the band or above: largest | {:.2f} |",
                   num_frames, largest));
 }
 

@@ -22,8 +22,8 @@ void keep_as_flushed(std::int64_t file, std::uintmax_t size);
 
 /// A readable copy of a file that has just been flushed.
 /// @param copy  an existing file, which gets this content
-/// @throws Failure with the system's reason, also if less than twice the size that it takes is free on the disk: a
-/// copy is to leave room for the file itself
+/// @throws Failure with the system's reason, also if less than twice the size that it takes is free on the
+/// disk: a copy is to leave room for the file itself
 void copy_flushed(const std::filesystem::path& file, const std::filesystem::path& copy);
 
 }  // namespace sprung::support::hdf5
