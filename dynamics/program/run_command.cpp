@@ -158,12 +158,12 @@ struct WrittenRun {
 // Opens the results; with --resume it takes over those of the partial file, and brings the statistics to its
 // last checkpoint. The partial file stays as it is until the next checkpoint is copied.
 WrittenRun open_results(const RunOutput& output, const ResultsHeader& header, RunStatistics& statistics) {
+  std::optional<PartialResults> partial;
   std::optional<PartialResults::RunState> state;
-  // Closed again before the writer looks for other writers.
-  if (output.resume) state = PartialResults(output.results, header).read_state(statistics);
+  if (output.resume) state = partial.emplace(output.results, header).read_state(statistics);
   WrittenRun run{std::make_unique<ResultsWriter>(output.results, header), std::nullopt};
   if (!state) return run;
-  run.writer->take_over(PartialResults(output.results, header), state->extent, state->checkpoint);
+  run.writer->take_over(*partial, state->extent, state->checkpoint);
   run.writer->write_checkpoint(state->checkpoint, statistics);
   run.checkpoint = std::move(state->checkpoint);
   return run;
@@ -238,14 +238,6 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
     if (!writer) throw;
     throw support::NumericalError(
         fmt::format("{}; partial results: {}", error.what(), writer->abandon().string()));
-  } catch (const support::InputError&) {  // as of a full disk
-    progress.finish();
-    if (writer && writer->has_checkpoint()) {
-      support::print(
-          err, "the results up to the last checkpoint are left as {}; to continue, run again with --resume\n",
-          writer->partial().string());
-    }
-    throw;
   } catch (const support::DamagedBytes& error) {
     throw support::InputError({.path = writer->partial().string()},
                               fmt::format("cannot be resumed: {}; run without --resume", error.what()));
@@ -255,6 +247,17 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   times.integration = (cpu_time() - cpu_before) * (1.0 - storing / times.wall);
   if (transient.completed) return transient;
   throw_interrupted(time_reached, statistics, transient, writer, err);
+}
+
+// Says what is left after an error of writing, as of a full disk, which ends the writing.
+void give_up_writing(WrittenRun& run, std::FILE* err) {
+  if (!run.writer) return;
+  const std::filesystem::path partial = run.writer->partial();
+  const bool has_checkpoint = run.writer->has_checkpoint();
+  run.writer.reset();
+  std::error_code ignored;
+  if (has_checkpoint && std::filesystem::exists(partial, ignored))
+    support::print(err, "partial results: {}; to continue, run again with --resume\n", partial.string());
 }
 
 // Files of others are not overwritten, nor results that are called as partial ones are.
@@ -328,8 +331,14 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json,
                                 streams.err);
   RunTimes times;
-  const TransientStatistics transient =
-      integrate(prepared, options, written, progress, sections, statistics, times, streams.err);
+  TransientStatistics transient;
+  try {
+    transient = integrate(prepared, options, written, progress, sections, statistics, times, streams.err);
+  } catch (const support::InputError&) {
+    progress.finish();
+    give_up_writing(written, streams.err);
+    throw;
+  }
   const AdaptivityOptions* adaptivity = options.adaptivity ? &*options.adaptivity : nullptr;
   std::vector<RunWarning> warnings =
       list_run_warnings(prepared.vehicle, prepared.model, statistics, transient, adaptivity);

@@ -146,7 +146,7 @@ class ResumeTest(ProgramTestCase):
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
         )  # fmt: skip
         self.assert_refused(process, "cannot be written: File too large")
-        self.assertIn("the results up to the last checkpoint are left as cut.partial.h5; to continue,", process.stderr)
+        self.assertIn("partial results: cut.partial.h5; to continue, run again with --resume", process.stderr)
         self.assertFalse((self.folder / "cut.h5.tmp").exists())
         self.assert_resumes(self.resume())
 

@@ -50,8 +50,8 @@ TemporaryFile::~TemporaryFile() {
 }
 
 bool TemporaryFile::is_in_place() const {
-  struct stat mine {
-  }, there{};
+  struct stat mine {};
+  struct stat there {};
   return ::fstat(descriptor_, &mine) == 0 && ::stat(path_.c_str(), &there) == 0 &&
          mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
 }
