@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <unordered_map>
 
 namespace sprung::dynamics {
 
@@ -90,10 +91,11 @@ double start_angle(const Vehicle& vehicle, const Marker& marker) {
   return marker.body == kGround ? 0.0 : vehicle.bodies[static_cast<std::size_t>(marker.body)].angle;
 }
 
-JointPlace place_joint(const Vehicle& vehicle, const Model& model, const PointReference& a,
-                       const PointReference& b, MotionUse motions) {
-  JointPlace place{
-      .marker_a = model.find_marker(a.name), .marker_b = model.find_marker(b.name), .motions = motions};
+using MarkerNumbers = std::unordered_map<std::string, int>;  // by name
+
+JointPlace place_joint(const Vehicle& vehicle, const Model& model, const MarkerNumbers& numbers,
+                       const PointReference& a, const PointReference& b, MotionUse motions) {
+  JointPlace place{.marker_a = numbers.at(a.name), .marker_b = numbers.at(b.name), .motions = motions};
   place.angle = start_angle(vehicle, model.markers[static_cast<std::size_t>(place.marker_b)]) -
                 start_angle(vehicle, model.markers[static_cast<std::size_t>(place.marker_a)]);
   return place;
@@ -113,21 +115,25 @@ Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const P
   for (const BodyDescription& body : vehicle.bodies) {
     model.bodies.push_back(make_body(vehicle, body, selection, damping, stiffened));
   }
+  MarkerNumbers numbers;
   for (const VehiclePoint& point : list_points(vehicle)) {
+    numbers.emplace(point.name, static_cast<int>(model.markers.size()));
     model.markers.push_back(make_marker(vehicle, point, model.bodies));
   }
   for (const JointDescription& joint : vehicle.joints) {
-    model.joints.push_back(make_joint(joint, place_joint(vehicle, model, joint.a, joint.b, motions)));
+    model.joints.push_back(
+        make_joint(joint, place_joint(vehicle, model, numbers, joint.a, joint.b, motions)));
   }
   for (const MotionDescription& motion : vehicle.motions) {
-    model.joints.push_back(make_joint(motion, place_joint(vehicle, model, motion.a, motion.b, motions)));
+    model.joints.push_back(
+        make_joint(motion, place_joint(vehicle, model, numbers, motion.a, motion.b, motions)));
   }
   for (const ForceDescription& force : vehicle.forces) {
     if (force.on_road && road.road == nullptr) {
       throw std::invalid_argument(fmt::format("make_model: force '{}' needs a road, got none", force.name));
     }
     std::vector<int> markers;
-    for (const PointReference& point : force.points) markers.push_back(model.find_marker(point.name));
+    for (const PointReference& point : force.points) markers.push_back(numbers.at(point.name));
     model.forces.push_back(make_force(force, markers, road));
   }
   number_model(model);

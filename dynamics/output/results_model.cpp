@@ -25,6 +25,10 @@ void write_road(support::Hdf5Writer& file, const ResultsHeader& header) {
 }
 
 void write_bodies(support::Hdf5Writer& file, const ResultsHeader& header) {
+  std::vector<std::vector<const Marker*>> markers(header.model.bodies.size());  // on each body
+  for (const Marker& marker : header.model.markers) {
+    if (marker.body != kGround) markers[static_cast<std::size_t>(marker.body)].push_back(&marker);
+  }
   for (std::size_t b = 0; b < header.model.bodies.size(); ++b) {
     const Body& body = header.model.bodies[b];
     const std::string group = "/model/bodies/" + body.name;
@@ -34,15 +38,11 @@ void write_bodies(support::Hdf5Writer& file, const ResultsHeader& header) {
     file.attribute(group, "superelement", header.vehicle.bodies[b].superelement);
     file.attribute(group, "num_modes", std::int64_t{body.num_modes()});
     std::vector<std::string> names;
-    std::vector<Eigen::Vector2d> points;
-    for (const Marker& marker : header.model.markers) {
-      if (marker.body != static_cast<int>(b)) continue;
-      names.push_back(marker.name);
-      points.push_back(marker.p_BP);
+    Eigen::MatrixXd positions(static_cast<Eigen::Index>(markers[b].size()), 2);
+    for (const Marker* marker : markers[b]) {
+      positions.row(static_cast<Eigen::Index>(names.size())) = marker->p_BP.transpose();
+      names.push_back(marker->name);
     }
-    Eigen::MatrixXd positions(static_cast<Eigen::Index>(points.size()), 2);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      positions.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
     file.write(group + "/point_names", names);
     file.write(group + "/point_positions", positions, "m");
   }

@@ -91,6 +91,11 @@ void RunHistories::add_points() {
 }
 
 void RunHistories::add_bodies() {
+  std::vector<std::size_t> centers(model_->bodies.size());  // the points that are centres of mass
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (points_[i].kind == VehiclePoint::Kind::kCenterOfMass)
+      centers[static_cast<std::size_t>(points_[i].body)] = i;
+  }
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
     const std::string group = "/bodies/" + body.name;
@@ -102,11 +107,8 @@ void RunHistories::add_bodies() {
                [first](const Snapshot& now, std::span<double> row) { put(row, now.v.segment<3>(first)); });
     add(group + "/acceleration", 3, "m/s^2, m/s^2, rad/s^2",
         [first](const Snapshot& now, std::span<double> row) { put(row, now.v_dot.segment<3>(first)); });
-    const auto center = std::find_if(points_.begin(), points_.end(), [b](const VehiclePoint& point) {
-      return point.kind == VehiclePoint::Kind::kCenterOfMass && point.body == static_cast<int>(b);
-    });
     begin(StoredGroup::kPoints, body.name + ".center_of_mass");
-    add_marker_motion(group + "/center_of_mass", static_cast<std::size_t>(center - points_.begin()));
+    add_marker_motion(group + "/center_of_mass", centers[b]);
     if (n == 0) continue;
     begin(StoredGroup::kBodies, body.name);
     const auto columns = static_cast<std::size_t>(n);
