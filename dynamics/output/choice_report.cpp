@@ -40,7 +40,7 @@ std::string summarise_choice(const BasisChoice& choice) {
     text += fmt::format(", predicted {} % of the {}", percent(choice.neglected), choice.neglected_of);
   }
   text += "\n";
-  for (const std::string& remark : choice.remarks) text += fmt::format("Note: {}\n", remark);
+  for (const std::string& remark : choice.remarks) text += fmt::format("remark: {}\n", remark);
   return text;
 }
 

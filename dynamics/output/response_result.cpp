@@ -43,7 +43,7 @@ ResponseResult calc_response_result(const Run& run, const Vehicle& vehicle, cons
 
 std::vector<std::string> list_remarks(const ResponseResult& result) {
   std::vector<std::string> texts;
-  for (const RunWarning& warning : result.warnings) texts.push_back("Warning: " + warning.text);
+  for (const RunWarning& warning : result.warnings) texts.push_back("warning: " + warning.text);
   texts.insert(texts.end(), result.remarks.begin(), result.remarks.end());
   return texts;
 }

@@ -26,7 +26,7 @@ class CompareFrequencies(ToolTestCase):
         self.assertEqual(process.returncode, 0, process.stderr)
         note, _, *table = process.stdout.splitlines()
         left_out = "left out are vectors without a frequency of the body: 2 residual, 1 constraint"
-        self.assertEqual(note, f"note: {left_out}")
+        self.assertEqual(note, f"remark: {left_out}")
         rows = [line.split() for line in table[2:]]
         self.assertEqual([(row[-6], row[-1]) for row in rows], [("1", "yes"), ("3", "yes")])
         process = self.run_tool("compare_frequencies", "arm.h5", "--printed", "6.11", "38.3", "50.0")

@@ -152,7 +152,7 @@ class EveryElement(ToolTestCase):
         for folder, is_remarked in (("whole", False), ("short", True)):
             process = self.run_tool("ride", "x=bare.h5", "--superelements", folder)
             self.assert_succeeds(process)
-            self.assertEqual(f"note: x: {remark}" in process.stdout, is_remarked)
+            self.assertEqual(f"remark: x: {remark}" in process.stdout, is_remarked)
             (rows[folder],) = [line.split() for line in process.stdout.splitlines() if line.startswith("frame ")]
         printed = self.run_tool("ride", "x=rigid.h5").stdout
         (expected,) = [line.split() for line in printed.splitlines() if line.startswith("frame ")]

@@ -179,7 +179,7 @@ class Tool(ToolTestCase):
 
     def test_too_coarse_points_get_a_note(self):
         process = self.run_tool("make_road.py", *self.arguments, "--band", "0.05", "9", "--rms", "0.01")
-        self.assertIn("note: only 2.22 points on the shortest wave", process.stdout)
+        self.assertIn("remark: only 2.22 points on the shortest wave", process.stdout)
 
     def test_recipes_that_make_no_profile_are_refused(self):
         for changed, complaint in (

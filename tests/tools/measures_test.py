@@ -156,7 +156,7 @@ class Json(ToolTestCase):
             process = self.run_tool("ride", "truck=a.h5", *arguments)
             self.assert_succeeds(process)
             gap = "body.seat: without We and the total: 'bodies/body/acceleration' is not stored"
-            self.assertIn(f"note: truck: {gap}", process.stdout)
+            self.assertIn(f"remark: truck: {gap}", process.stdout)
         process = self.run_tool("ride", "truck=a.h5", "--points", "body.center_of_mass")  # asked for, and not there
         self.assertEqual(process.returncode, 2)
 

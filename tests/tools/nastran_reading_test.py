@@ -59,7 +59,7 @@ class Reading(ToolTestCase):
         (self.folder / "a.pch").write_text(text, encoding="utf-8")
         process = self.run_tool("convert_mesh", "a.pch", "a.msh")
         self.assertEqual(process.returncode, 0, process.stderr)
-        self.assertIn("\nRemark: no ENDDATA ends the deck", process.stdout)
+        self.assertIn("\nremark: no ENDDATA ends the deck", process.stdout)
 
     def test_an_included_file_takes_its_place(self):
         (self.folder / "nodes.bdf").write_text("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n", encoding="utf-8")

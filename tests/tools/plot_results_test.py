@@ -80,7 +80,7 @@ class PlotResults(ToolTestCase):
             quantity = "points/chassis.front_end/deflection.y"
             process = self.run_tool(tool, "stiff=a.h5", "b.h5", "--show", quantity, *more)
             self.assert_succeeds(process)
-            self.assertIn(f"note: stiff: has no '{quantity}'\n", process.stdout)
+            self.assertIn(f"remark: stiff: has no '{quantity}'\n", process.stdout)
 
     def test_a_png_is_fit_for_a_page_and_not_blank(self):
         process = self.run_tool("plot_results", "-o", "out.png", "a.h5", "b.h5", "--show", DISPLACEMENT)

@@ -141,7 +141,7 @@ class ContinuedRun(ToolTestCase):
         self.assertEqual(rows["suspension"][2:6], ["–", "–", "–", "2"])
         self.assertEqual(rows["tyre"][2:6], ["–", "–", "–", "125.0"])
         reason = "static loads and travel are not known: the run continues another one from 0.25 s on"
-        self.assertIn(f"note: truck: {reason}", process.stdout)
+        self.assertIn(f"remark: truck: {reason}", process.stdout)
         (run,) = json.loads(self.run_tool("ride", "a.h5", "--json").stdout)["runs"]
         for name in ("tyres/tyre/static_load", "suspensions/suspension/way_to_stop", "suspensions/link/compression"):
             self.assertIsNone(run["measures"][name]["value"], name)
@@ -200,7 +200,7 @@ class Tool(ToolTestCase):
         write_ride_results(self.folder / "a.h5")  # from 0 s
         for begin, end, is_short in (("0", "0.4", True), ("2.0", "2.4", True), ("0", "1.0", False)):
             printed = self.run_tool("ride", "truck=a.h5", "--from", begin, "--to", end).stdout
-            remark = "note: truck: the MTVV is the largest r.m.s. over 1 s, and the span has only 0.4 s: what is"
+            remark = "remark: truck: the MTVV is the largest r.m.s. over 1 s, and the span has only 0.4 s: what is"
             self.assertEqual(remark in printed, is_short)
 
     def test_no_share_of_travel_is_given_if_the_vehicle_rests_on_its_stop(self):
@@ -266,7 +266,7 @@ class Tool(ToolTestCase):
         process = self.run_tool("ride", "truck=a.h5")
         self.assert_succeeds(process)
         reason = "without the weighted values and the absorbed power: a sample every 10 ms is too few"
-        self.assertIn(f"note: truck: body.seat, body.center_of_mass: {reason}", process.stdout)
+        self.assertIn(f"remark: truck: body.seat, body.center_of_mass: {reason}", process.stdout)
         rows = {line.split()[0]: line.split() for line in process.stdout.splitlines() if "truck" in line}
         self.assertEqual(rows["body.seat"][2:], ["1.411", "2", *["–"] * 8])
         self.assertEqual(rows["tyre"][2], "50.00")

@@ -91,7 +91,7 @@ class RunWarnings(ToolTestCase):
                 process = self.run_tool(tool, *arguments)
                 self.assertEqual(process.returncode, 0, process.stderr)
                 self.assertIn("warning: chassis 3 vectors: the energy balance does not close", process.stdout)
-                self.assertIn("note: chassis 3 vectors: forces stored every 50 ms", process.stdout)
+                self.assertIn("remark: chassis 3 vectors: forces stored every 50 ms", process.stdout)
 
     def test_histories_of_every_kind_that_are_not_stored_are_told(self):
         write_results(self.folder / "a.h5", num_modes=0)

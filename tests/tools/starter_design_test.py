@@ -199,7 +199,7 @@ class OfDecks(StarterCase):
                 ):
                     self.assertAlmostEqual(value / expected, 1.0, places=12)
         told, _ = self.convert_text("weight.bdf", deck, "--scale", "0.0254", "--force", "4.4482216")
-        self.assertIn("Remark: the density of '1' is 3.02e+06 kg/m³: is it in units of mass, here of 175.127 kg", told)
+        self.assertIn("remark: the density of '1' is 3.02e+06 kg/m³: is it in units of mass, here of 175.127 kg", told)
         for bad, message in (
             ("PARAM,WTMASS,0.\n", "c.bdf:9: error: PARAM: WTMASS is 0, expected a factor > 0 of all masses"),
             ("PARAM,WTMASS,2.\nPARAM,WTMASS,3.\n", "c.bdf:10: error: PARAM: WTMASS is 3 here and 2 elsewhere"),
@@ -228,10 +228,10 @@ class OfDecks(StarterCase):
 
     def test_a_size_or_a_modulus_of_other_units_is_remarked(self):
         told, _ = self.convert_text("a.bdf", NASTRAN.replace("GRID,2,,1.", "GRID,2,,1000."))
-        self.assertIn("Remark: the frame is 1000 m long: if its unit is the millimetre, give --scale 1e-3", told)
+        self.assertIn("remark: the frame is 1000 m long: if its unit is the millimetre, give --scale 1e-3", told)
         (self.folder / "frame.toml").unlink()
         told, _ = self.convert_text("b.bdf", NASTRAN.replace("ENDDATA", "PBAR,1,1,.1,.1,.1\nMAT1,1,2.1+5\nENDDATA"))
-        self.assertIn("Remark: Young's modulus of '1' is 2.1e+05 Pa", told)
+        self.assertIn("remark: Young's modulus of '1' is 2.1e+05 Pa", told)
 
     def test_what_the_source_does_not_say_is_left_open_and_the_design_refused(self):
         _, text = self.convert_text("a.bdf", NASTRAN)

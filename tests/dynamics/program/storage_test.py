@@ -127,7 +127,7 @@ class Storage(DynamicsTestCase):
         self.assertEqual(ride.returncode, 0, ride.stderr)
         for words in ("joints not stored: all", "forces not stored: front_suspension, rear_suspension, rear_tyre",
                       "stress resultants not stored: all"):  # fmt: skip
-            self.assertIn(f"note: chassis 4 modes: {words}", ride.stdout)
+            self.assertIn(f"remark: chassis 4 modes: {words}", ride.stdout)
         self.assertIn("front_tyre", ride.stdout)
         export = run_program(
             [ROOT / "tools/export_csv", "few.h5", "-o", "a.csv", "--show", "joints/front_long_axle/reaction.1"],

@@ -58,6 +58,6 @@ def main() -> int:
         percent = f"{100.0 * difference / known:+.4f}"
         rows.append((name, str(mode + 1), f"{computed:.5f}", text, f"{difference:+.5f}", percent, digits))
     if others:
-        print(f"note: {left_out}\n")
+        print(f"remark: {left_out}\n")
     print(format_table(HEADINGS, rows))
     return 0

@@ -102,5 +102,5 @@ def main() -> int:
     print_report(mesh, frame, arguments.plane, units, arguments.output)
     write_design(design, arguments.output.removesuffix(".msh") + ".toml")
     for doubt in (*mesh.doubts, *find_doubts(mesh, frame, units)):
-        print(f"Remark: {doubt}")
+        print(f"remark: {doubt}")
     return 0

@@ -63,7 +63,7 @@ def choose_bodies(runs: Sequence[Run], wanted: Sequence[str]) -> tuple[list[str]
             if gap and wanted:
                 raise InputError(f"{run.results.path}: error: {gap}")
             if gap:
-                gaps.append(f"note: {run.label}: {gap}")
+                gaps.append(f"remark: {run.label}: {gap}")
             elif body not in bodies:
                 bodies.append(body)
     if not bodies:

@@ -122,7 +122,9 @@ def format_report(path: str, recipe: Recipe, density: float) -> str:
         lines.append(f"exponent wanted {recipe.exponent:g}, found {fit_exponent(octaves, recipe.exponent):.3f}")
     points = 1.0 / (octaves[-1].highest * recipe.spacing)
     if points < FINE:
-        lines.append(f"note: only {points:.2f} points on the shortest wave; a smooth curve through them needs {FINE:g}")
+        lines.append(
+            f"remark: only {points:.2f} points on the shortest wave; a smooth curve through them needs {FINE:g}"
+        )
     return "\n".join(lines)
 
 

@@ -62,7 +62,7 @@ CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "grea
            "without load s")  # fmt: skip
 BENDING = ("body", "run", "largest moment kN m", "at x m", "at s", "from modes kN m", "largest difference kN m")
 DIFFERENCE_NOTE = (
-    "note: the largest difference is that of the two moments at one place and time, wherever they differ most; what "
+    "remark: the largest difference is that of the two moments at one place and time, wherever they differ most; what "
     "'its modes miss' is another number (tools/README.md, Measures)"
 )
 
@@ -230,7 +230,7 @@ def main() -> int:
     doubts = list_doubts(runs)
     for run, some, window in zip(runs, points, windows):
         remarks = list_remarks(run.results, some, window) + list_moment_remarks(run.results, arguments.superelements)
-        doubts += [f"note: {run.label}: {remark}" for remark in remarks]
+        doubts += [f"remark: {run.label}: {remark}" for remark in remarks]
     if doubts:
         text.append("\n".join(doubts))
     for headings, rows in tables:

@@ -43,7 +43,7 @@ BAND = (0.0547, 3.3)  # 1/m
 Task = tuple[Callable[..., Root], Vehicle, Terrain | Obstacles, float]
 KMH = 3.6
 POINT_NOTE = (
-    'note: wheels with contact = "point" feel no force along the road: the vehicle keeps its speed over obstacles, '
+    'remark: wheels with contact = "point" feel no force along the road: the vehicle keeps its speed over obstacles, '
     'which would slow it down; contact = "distributed" has this force'
 )
 
@@ -147,7 +147,7 @@ def make_tables(search: Search, terrain: Sequence[Found], obstacles: Sequence[Fo
     ]  # fmt: skip
     if rows:
         heading = f"r.m.s. mm at {search.terrain.power:g} W"
-        text.append(format_table(("vehicle", "m/s", "km/h", heading, "runs", "note"), rows))
+        text.append(format_table(("vehicle", "m/s", "km/h", heading, "runs", "remark"), rows))
     rows = [
         (one.vehicle.variant.label, f"{1e3 * one.given:g}", *format_speed(one.root.value), str(one.root.calls),
          "; ".join(filter(None, (describe_root(one.root, *search.obstacles.speeds, "m/s"), describe_obstacle(one)))))
@@ -155,7 +155,7 @@ def make_tables(search: Search, terrain: Sequence[Found], obstacles: Sequence[Fo
     ]  # fmt: skip
     if rows:
         heading = f"km/h at {search.obstacles.acceleration / GRAVITY:g} g"
-        text.append(format_table(("vehicle", "obstacle mm", "m/s", heading, "runs", "note"), rows))
+        text.append(format_table(("vehicle", "obstacle mm", "m/s", heading, "runs", "remark"), rows))
     if any(one.vehicle.wheels.point_radii for one in obstacles):
         text.append(POINT_NOTE)
     warnings = list_warnings([*terrain, *obstacles])

@@ -74,11 +74,11 @@ def format_effects(effects: list[Effect]) -> str:
     unknown = list(dict.fromkeys(one.parameter for one in effects if one.share is None))
     weak = sum(one.share is not None and not one.is_seen for one in effects)
     if len(seen) > MOST_SHOWN:
-        text.append(f"note: {len(seen) - MOST_SHOWN} smaller effects are on the page only")
+        text.append(f"remark: {len(seen) - MOST_SHOWN} smaller effects are on the page only")
     if weak:
-        text.append(f"note: {weak} other effects explain no more than chance, or less than {100.0 * LEAST_SEEN:g} %")
+        text.append(f"remark: {weak} other effects explain no more than chance, or less than {100.0 * LEAST_SEEN:g} %")
     if unknown:
-        text.append(f"note: cannot be judged, with one value or too few runs: {', '.join(unknown)}")
+        text.append(f"remark: cannot be judged, with one value or too few runs: {', '.join(unknown)}")
     return "\n".join(text)
 
 
@@ -128,7 +128,7 @@ def main() -> int:
     options = Options(folder, arguments.jobs, arguments.retry_failed, arguments.keep_results, part, arguments.collect)
     if not is_balanced(study.sampling):
         number = study.sampling.number
-        print(f"note: Sobol points are balanced where they are 1, 2, 4, 8, …; here {number}", file=sys.stderr)
+        print(f"remark: Sobol points are balanced where they are 1, 2, 4, 8, …; here {number}", file=sys.stderr)
     try:
         finished = run_study(study, programs, options)
     except KeyboardInterrupt:

@@ -68,7 +68,7 @@ def runs_with(runs: Sequence[Run], shown: Shown) -> list[Run]:
 def list_lacking(runs: Sequence[Run], quantities: Iterable[Shown]) -> list[str]:
     """Which runs lack a quantity that others have, each in a line."""
     return [
-        f"note: {run.label}: has no '{shown.quantity}'"
+        f"remark: {run.label}: has no '{shown.quantity}'"
         for shown in quantities for run in runs if not run.results.has(shown.quantity)
     ]  # fmt: skip
 

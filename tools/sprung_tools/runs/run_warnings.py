@@ -128,5 +128,5 @@ def list_doubts(runs: Sequence[Run]) -> list[str]:
     for run in runs:
         warnings = dict.fromkeys(one.text for one in list_warnings(run.results))
         doubts += [f"warning: {run.label}: {text}" for text in warnings]
-        doubts += [f"note: {run.label}: {text}" for text in list_gaps(run.results)]
+        doubts += [f"remark: {run.label}: {text}" for text in list_gaps(run.results)]
     return doubts
