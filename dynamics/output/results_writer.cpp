@@ -99,7 +99,8 @@ void ResultsWriter::make_datasets(const ResultsHeader& header) {
     const History& history = *stored.history;
     stored.dataset = &file_.make_growing(
         history.name, history.columns, history.unit, to_hdf5(storage_->precision(history)),
-        std::min(stored.num_rows(static_cast<std::size_t>(count_outputs(header))), most_rows));
+        {.number = stored.num_rows(static_cast<std::size_t>(count_outputs(header))),
+         .most_per_chunk = most_rows});
     if (!history.role.empty()) file_.attribute(history.name, "role", history.role);
     if (stored.every > 1) file_.attribute(history.name, "every", std::int64_t{stored.every});
   }
@@ -190,6 +191,7 @@ void ResultsWriter::write_summary(const RunStatistics& statistics, const Transie
 void ResultsWriter::finish(const RunStatistics& statistics, const TransientStatistics& transient,
                            const std::vector<RunWarning>& warnings) {
   write_summary(statistics, transient);
+  file_.attribute("/summary", "converged", std::int64_t{is_converged(warnings)});
   write_warnings(file_, warnings);
   if (has_checkpoint_) file_.remove(std::string(kCheckpointDataset));
   file_.attribute("/", "complete", std::int64_t{1});

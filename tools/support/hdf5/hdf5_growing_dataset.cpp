@@ -24,9 +24,12 @@ constexpr std::size_t kMostChunkValues = (std::size_t{1} << 20U) / sizeof(double
 
 // Two rows at least, and no odd number: the checksum of numbers of single precision needs an even number of
 // them.
-std::size_t find_chunk_rows(std::size_t most, std::size_t row_size) {
-  const std::size_t rows = std::min({most, kMostChunkValues / row_size, Hdf5GrowingDataset::kMostChunkRows});
-  return std::max<std::size_t>((rows + 1) / 2 * 2, 2);
+std::size_t find_chunk_rows(const ExpectedRows& rows, std::size_t row_size) {
+  const std::size_t most = std::max<std::size_t>(
+      std::min({rows.most_per_chunk, kMostChunkValues / row_size, ExpectedRows::kMostPerChunk}), 2);
+  const std::size_t chunks = std::max<std::size_t>((rows.number + most - 1) / most, 1);
+  const std::size_t even = (rows.number + 2 * chunks - 1) / (2 * chunks) * 2;
+  return std::max<std::size_t>(even, 2);
 }
 
 // One or two dimensions, as HDF5 takes them: the rank is that of the dataset.
@@ -50,11 +53,11 @@ std::string describe_overflow(const std::string& path, double value) {
 
 Hdf5GrowingDataset::Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t columns,
                                        std::string_view unit, ChunkCompressor* compressor, bool is_rounded,
-                                       std::size_t chunk_rows)
+                                       const ExpectedRows& rows)
     : path_(path),
       columns_(columns),
       row_size_(std::max<std::size_t>(columns, 1)),
-      chunk_rows_(find_chunk_rows(chunk_rows, row_size_)),
+      chunk_rows_(find_chunk_rows(rows, row_size_)),
       compressor_(compressor),
       is_rounded_(is_rounded) {
   const std::array<hsize_t, 2> shape{0, columns};

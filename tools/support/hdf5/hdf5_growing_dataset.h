@@ -12,6 +12,15 @@ namespace sprung::support {
 
 class ChunkCompressor;
 
+/// The rows that a dataset will have. Its chunks are made equal for them: the last one takes its whole size
+/// in the file, however few rows it has.
+struct ExpectedRows {
+  static constexpr std::size_t kMostPerChunk = 1024;
+
+  std::size_t number = kMostPerChunk;
+  std::size_t most_per_chunk = kMostPerChunk;
+};
+
 /// A dataset of doubles or of texts to which rows are appended. It stays open and is written in whole chunks.
 /// Only Hdf5Writer uses it. Failures of HDF5 are thrown as hdf5::Failure.
 ///
@@ -21,16 +30,13 @@ class ChunkCompressor;
 /// disk still refers to it.
 class Hdf5GrowingDataset {
  public:
-  static constexpr std::size_t kMostChunkRows = 1024;
-
   /// @param parent      identifier of its group, or of the file
   /// @param path        of the dataset, from the root
   /// @param columns     0 for rank 1
   /// @param compressor  null for doubles that are not compressed; otherwise it has to outlive this
   /// @param is_rounded  whether values are rounded before they are compressed
-  /// @param chunk_rows  the most rows of a chunk
   Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t columns, std::string_view unit,
-                     ChunkCompressor* compressor, bool is_rounded, std::size_t chunk_rows);
+                     ChunkCompressor* compressor, bool is_rounded, const ExpectedRows& rows);
   /// A dataset of texts, rank 1. @param text_size  the most bytes of a text: what goes beyond is cut off
   Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t text_size);
 

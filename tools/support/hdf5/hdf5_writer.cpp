@@ -239,7 +239,7 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
 
 Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::size_t columns,
                                              std::string_view unit, Hdf5Precision precision,
-                                             std::size_t chunk_rows) {
+                                             const ExpectedRows& rows) {
   attempt([&] {
     prepare_dataset(dataset);
     ChunkCompressor* compressor = nullptr;
@@ -248,7 +248,7 @@ Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::si
       compressor = compressor_.get();
     }
     growing_.try_emplace(dataset, open(hdf5::parent_path(dataset)), dataset, columns, unit, compressor,
-                         precision == Hdf5Precision::kCompressedRounded, chunk_rows);
+                         precision == Hdf5Precision::kCompressedRounded, rows);
   });
   return growing_.at(dataset);
 }

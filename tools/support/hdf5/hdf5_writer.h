@@ -77,12 +77,11 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
 
   /// An empty dataset of `columns` columns (rank 1 where columns is 0) whose rows grow by `append`.
-  /// @param chunk_rows  the most rows that are collected and written at once: memory and file take whole
-  /// chunks
+  /// @param rows  they are collected and written in chunks: memory and file take whole ones
   /// @return valid until `commit` or `keep_partial`
   Hdf5GrowingDataset& make_growing(const std::string& dataset, std::size_t columns, std::string_view unit,
                                    Hdf5Precision precision = Hdf5Precision::kDouble,
-                                   std::size_t chunk_rows = Hdf5GrowingDataset::kMostChunkRows);
+                                   const ExpectedRows& rows = {});
   /// Likewise of texts, rank 1. @param text_size  the most bytes of a text: what goes beyond is cut off
   Hdf5GrowingDataset& make_growing_texts(const std::string& dataset, std::size_t text_size);
   /// Appends whole rows, row-major. Rows are collected in chunks, so that an error may appear later.
