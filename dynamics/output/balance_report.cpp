@@ -42,7 +42,7 @@ struct RestingForces {
 std::string format_warnings(const std::vector<RunWarning>& warnings) {
   std::string text;
   for (const RunWarning& warning : warnings) {
-    if (!is_of_computation(warning)) text += fmt::format("\nwarning: {}\n", warning.text);
+    if (!goes_to_stderr(warning)) text += fmt::format("\nwarning: {}\n", warning.text);
   }
   return text;
 }

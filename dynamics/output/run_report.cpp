@@ -162,7 +162,7 @@ std::string format_summary(const RunSummary& summary) {
   run.add_row({"real-time factor", fmt::format("{:.0f}", summary.duration / times.wall)});
   std::vector<std::string> texts;
   for (const RunWarning& warning : summary.warnings) {
-    if (!is_of_computation(warning) && std::find(texts.begin(), texts.end(), warning.text) == texts.end())
+    if (!goes_to_stderr(warning) && std::find(texts.begin(), texts.end(), warning.text) == texts.end())
       texts.push_back(warning.text);
   }
   std::string warnings;
@@ -210,6 +210,7 @@ Json make_summary_json(const Model& model, const RunSummary& summary) {
               {"constraint_violation", summary.statistics.constraint_violation()},
               {"velocity_violation", transient.stepper.velocity_violation},
               {"energy_closure", summary.statistics.energy_closure()},
+              {"converged", is_converged(summary.warnings)},
               {"steps", transient.stepper.integrator.steps},
               {"evaluations", transient.stepper.evaluations},
               {"output_evaluations", transient.output_evaluations},

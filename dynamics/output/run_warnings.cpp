@@ -28,14 +28,15 @@ constexpr const char* kSummary = "summary";  // kinds of numbers that a warning 
 constexpr const char* kModes = "modes";
 
 void warn_of_energy(const RunStatistics& statistics, std::vector<RunWarning>& warnings) {
-  if (is_balanced(statistics)) return;
+  if (statistics.energy_closure() <= kAlarmingClosure) return;
   warnings.push_back(
-      {kSummary,
-       {std::string(kComputation)},
-       fmt::format(
+      {.concerns = kSummary,
+       .of = {std::string(kComputation)},
+       .text = fmt::format(
            "the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
            "relative tolerance, and look for motion much smaller than the vehicle",
-           statistics.energy_closure())});
+           statistics.energy_closure()),
+       .fails = true});
 }
 
 std::vector<std::string> list_points_of(const std::string& body, const RunStatistics& statistics) {
@@ -137,13 +138,15 @@ void warn_of_unconverged_accelerations(const Model& model, const RunStatistics& 
   }
   if (worst == nullptr) return;
   warnings.push_back(
-      {kSummary, points,
-       fmt::format(
+      {.concerns = kSummary,
+       .of = points,
+       .text = fmt::format(
            "the accelerations are not converged: the estimated error of that of {} is {:.2g} m/s² "
            "r.m.s., where it has {:.3g} m/s² r.m.s.: vibration of stiff modes, which steps excite; take "
            "a smaller integrator.relative_tolerance, or fewer modes, or compare with "
            "integrator.method = \"generalized-alpha\"",
-           worst->point, worst->acceleration_error_rms, worst->acceleration_rms)});
+           worst->point, worst->acceleration_error_rms, worst->acceleration_rms),
+       .fails = true});
 }
 
 // Of accelerations that the outputs may have missed the peaks of.
@@ -201,12 +204,13 @@ std::string name_missing_point(const AdaptivityOptions& adaptivity, const Missin
   return adaptivity.full->markers[static_cast<std::size_t>(marker)].name;
 }
 
-bool is_of_computation(const RunWarning& warning) {
-  return warning.of == std::vector<std::string>{std::string(kComputation)};
+bool goes_to_stderr(const RunWarning& warning) {
+  return warning.fails || warning.of == std::vector<std::string>{std::string(kComputation)};
 }
 
-bool is_balanced(const RunStatistics& statistics) {
-  return statistics.energy_closure() <= kAlarmingClosure;
+bool is_converged(const std::vector<RunWarning>& warnings) {
+  return std::none_of(warnings.begin(), warnings.end(),
+                      [](const RunWarning& warning) { return warning.fails; });
 }
 
 std::string describe_far_movement(const Model& model, const AssemblyReport& assembly) {

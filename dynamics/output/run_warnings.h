@@ -22,12 +22,13 @@ struct RunWarning {
   std::string concerns;         ///< which numbers: "summary", "modes"
   std::vector<std::string> of;  ///< their points or bodies, or "computation"
   std::string text;
+  bool fails = false;  ///< it is a check of the run that failed: exit code 1
 };
 
-/// Whether it concerns all numbers of the run.
-bool is_of_computation(const RunWarning& warning);
-/// Whether the energy balance closes well enough to trust the run.
-bool is_balanced(const RunStatistics& statistics);
+/// Whether it is printed on stderr, instead of below the tables: it concerns all numbers, or the run fails.
+bool goes_to_stderr(const RunWarning& warning);
+/// Whether no check of the run has failed.
+bool is_converged(const std::vector<RunWarning>& warnings);
 
 /// Says which point the assembly has moved farther than the vehicle's bodies are large; "" if there is none.
 std::string describe_far_movement(const Model& model, const AssemblyReport& assembly);

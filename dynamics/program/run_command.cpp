@@ -83,9 +83,9 @@ void print_description(std::FILE* out, const PreparedRun& prepared) {
   if (prepared.choice) support::print(out, "{}", summarise_choice(*prepared.choice));
 }
 
-void print_of_computation(std::FILE* err, const std::vector<RunWarning>& warnings) {
+void print_gravest(std::FILE* err, const std::vector<RunWarning>& warnings) {
   for (const RunWarning& warning : warnings) {
-    if (is_of_computation(warning)) support::print(err, "warning: {}\n", warning.text);
+    if (goes_to_stderr(warning)) support::print(err, "warning: {}\n", warning.text);
   }
 }
 
@@ -298,7 +298,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
                           prepared.equilibrium ? &*prepared.equilibrium : nullptr);
   warn_of_missed_road(prepared, model_warnings);
   warn_of_other_speed(prepared, model_warnings);
-  print_of_computation(streams.err, model_warnings);
+  print_gravest(streams.err, model_warnings);
   for (RunWarning& remark : list_file_warnings(prepared.remarks))  // told when the file was read
     model_warnings.push_back(std::move(remark));
   TransientOptions options = make_options(run, prepared.model);
@@ -342,7 +342,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const AdaptivityOptions* adaptivity = options.adaptivity ? &*options.adaptivity : nullptr;
   std::vector<RunWarning> warnings =
       list_run_warnings(prepared.vehicle, prepared.model, statistics, transient, adaptivity);
-  print_of_computation(streams.err, warnings);
+  print_gravest(streams.err, warnings);
   warnings.insert(warnings.end(), model_warnings.begin(), model_warnings.end());
   if (written.writer) written.writer->finish(statistics, transient, warnings);
   times.cpu = cpu_time() - request.earlier_cpu_time;
@@ -354,7 +354,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
                                                   make_summary_json(prepared.model, summary))
                              : format_summary(summary));
   if (written.writer && !output.json) support::print(streams.out, "Results: {}\n", output.results.string());
-  return is_balanced(statistics) ? support::kGood : support::kCheckFailed;
+  return is_converged(warnings) ? support::kGood : support::kCheckFailed;
 }
 
 }  // namespace sprung::dynamics

@@ -184,6 +184,14 @@ class Json(ToolTestCase):
         self.assertEqual(bad["warnings"][0]["concerns"], "summary")
         self.assertIn("the energy balance does not close (relative 2.0e-02)", bad["warnings"][0]["text"])
 
+    def test_a_run_has_converged_if_it_says_so_itself(self):
+        """Its accelerations may not be converged, though its energy balance closes."""
+        for name, converged in (("good.h5", 1), ("bad.h5", 0)):
+            write_run(self.folder / name)
+            with h5py.File(self.folder / name, "a") as file:
+                file["summary"].attrs["converged"] = converged
+        self.assertEqual([one["converged"] for one in self.read_json("good.h5", "bad.h5")["runs"]], [True, False])
+
     def test_any_history_gives_its_extremes_its_mean_and_its_rms(self):
         with open_results(write_run(self.folder / "a.h5")) as results:
             wanted = ["histories/points/body.seat/acceleration.y/max", "histories/points/none/acceleration.y/max"]

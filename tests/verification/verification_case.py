@@ -20,14 +20,14 @@ SUPERELEMENTS = os.environ["SPRUNG_SUPERELEMENTS"]
 
 
 class VerificationCase(ProgramTestCase):
-    def program(self, verb, run_file, *arguments, superelements=SUPERELEMENTS):
+    def program(self, verb, run_file, *arguments, superelements=SUPERELEMENTS, exit_code=0):
         """What the program prints with --json."""
         process = run_program(
             [os.environ["SPRUNG_DYNAMICS"], verb, str(run_file), "--superelements", str(superelements), "--json",
              "--quiet", *arguments],
             cwd=self.folder,
         )  # fmt: skip
-        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual(process.returncode, exit_code, process.stderr)
         return json.loads(process.stdout)
 
     def run_to_results(self, run_file, *arguments, violation=1e-10, **options):

@@ -49,8 +49,8 @@ def run(
     """Makes a run.
 
     overrides: keys of the run file, and of the vehicle file after `vehicle.`, with their values, as `--set` takes them.
-    output: results file; without it the file goes away with the Results. A run whose energy balance does not close has
-    results, too: see Results.converged.
+    output: results file; without it the file goes away with the Results. A run of which a check failed has results,
+    too: see Results.converged.
     """
     with prepare_output(output) as (path, folder):
         start("run", file, superelements, overrides, path)

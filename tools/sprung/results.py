@@ -53,7 +53,7 @@ class Results:
     def __repr__(self) -> str:
         if self._is_closed:
             return f"<Results, closed: {self.path}>"
-        trust = "" if self.converged else "; do not trust it: its energy balance does not close"
+        trust = "" if self.converged else "; do not trust it: a check failed"
         span = f"{self.time.size} samples from {self.time[0]:g} s to {self.time[-1]:g} s"
         return f"<Results of '{self.title}': {span}; {len(self.warnings)} warnings{trust}>"
 
@@ -82,7 +82,7 @@ class Results:
 
     @property
     def converged(self) -> bool:
-        """Whether the energy balance closes; else do not trust the run."""
+        """Whether no check of the run failed: its energy balance closes, and its accelerations are converged."""
         return is_converged(self._file)
 
     @property

@@ -264,8 +264,10 @@ def calc_measures(objects: Objects) -> Measures:
 
 
 def is_converged(results: ResultsFile) -> bool:
-    """Whether the energy balance of a run closes, as sprung-dynamics judges it for its exit code."""
-    return read_real(results.file, "summary", "energy_closure") <= ALARMING_CLOSURE
+    """Whether no check of a run failed, as sprung-dynamics judges it for its exit code. A run that has not ended has no
+    such judgement: then whether its energy balance closes."""
+    closes = read_real(results.file, "summary", "energy_closure") <= ALARMING_CLOSURE
+    return bool(results.file.attribute("summary", "converged", int, int(closes)))
 
 
 def describe_run(results: ResultsFile, window: Span) -> dict[str, Any]:
