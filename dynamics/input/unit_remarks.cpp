@@ -13,7 +13,9 @@ namespace {
 
 constexpr double kEarth = 9.80665;         // m/s²
 constexpr double kLongest = 100.0;         // m, of a vehicle
-constexpr double kLargestWheel = 10.0;     // m
+constexpr double kLargestWheel = 10.0;     // m, also of an air spring
+constexpr double kLargestArea = 3.0;       // m², of an air spring
+constexpr double kLargestVolume = 3.0;     // m³
 constexpr double kLargestGyration = 50.0;  // m
 constexpr double kFastest = 70.0;          // m/s, of a road vehicle
 // A body whose points are this much nearer than its radius of gyration, which is longer than kLongGyration.
@@ -68,20 +70,26 @@ void remark_on_body(const BodyDescription& body, std::vector<std::string>& remar
 }
 
 void remark_on_force(const ForceDescription& force, std::vector<std::string>& remarks) {
-  double length = 0.0, largest = kLongest;
-  std::string key;
+  const auto check = [&](const char* key, double value, double largest, const char* unit, const char* rule) {
+    if (value <= largest) return;
+    remarks.push_back(remark_at(
+        force.location, fmt::format("'forces.{}.{}' is {:.4g} {}; {}", force.name, key, value, unit, rule)));
+  };
+  constexpr const char* kLengths = "lengths are in m, not in mm";
   if (const auto* spring = std::get_if<SpringDamper::Parameters>(&force.parameters)) {
-    length = spring->free_length;
-    key = "free_length";
+    check("free_length", spring->free_length, kLongest, "m", kLengths);
+  } else if (const auto* leaf = std::get_if<LeafSpring::Parameters>(&force.parameters)) {
+    check("free_length", leaf->free_length, kLongest, "m", kLengths);
+  } else if (const auto* stop = std::get_if<HydraulicStop::Parameters>(&force.parameters)) {
+    check("contact_length", stop->contact_length, kLongest, "m", kLengths);
   } else if (const auto* tyre = std::get_if<TyreDescription>(&force.parameters)) {
-    length = tyre->parameters.radius;
-    largest = kLargestWheel;
-    key = "radius";
+    check("radius", tyre->parameters.radius, kLargestWheel, "m", kLengths);
+  } else if (const auto* air = std::get_if<AirSpring::Parameters>(&force.parameters)) {
+    const double area = air->effective_area.value(air->design_height);
+    check("design_height", air->design_height, kLargestWheel, "m", kLengths);
+    check("effective_area", area, kLargestArea, "m²", "areas are in m², not in cm² or mm²");
+    check("volume", air->volume, kLargestVolume, "m³", "volumes are in m³, not in litres");
   }
-  if (length <= largest) return;
-  remarks.push_back(remark_at(
-      force.location,
-      fmt::format("'forces.{}.{}' is {:.4g} m; lengths are in m, not in mm", force.name, key, length)));
 }
 
 // Mass of the lightest body that an element acts on; 0 if one has none.

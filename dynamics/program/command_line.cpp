@@ -24,7 +24,7 @@ void add_input_options(CLI::App& command, RunRequest& request, RunOutput& output
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.add_flag("--json", output.json, "prints one JSON object (SI units) in place of tables");
-  command.add_flag("--quiet", request.quiet, "no progress on stderr");
+  command.add_flag("--quiet", request.quiet, "no progress and no remarks on stderr");
 }
 
 // An empty name, as from an unset variable of a shell, is an error: the user wants a file.

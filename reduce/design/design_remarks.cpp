@@ -37,6 +37,19 @@ void remark_on_material(const support::TomlTable& material, std::vector<std::str
   }
 }
 
+// Of a section that is larger than the whole frame: √A, or the radius of gyration √(I/A).
+void remark_on_size(const std::string& name, const fem::BeamProperties& section, double extent,
+                    std::vector<std::string>& remarks) {
+  if (section.bushing) return;
+  const double side = std::sqrt(section.area);
+  const double gyration = std::sqrt(section.bending_rigidity / section.axial_rigidity);
+  if (std::max(side, gyration) <= extent) return;
+  remarks.push_back(fmt::format(
+      "'sections.{}' has the area of a square of {:.4g} m and a radius of gyration of {:.4g} m, in a frame "
+      "of {:.4g} m; dimensions are in m, not in mm",
+      name, side, gyration, extent));
+}
+
 // The mean square of the distances from the centroid is I/A, so that the largest, I/W, is at least √(I/A).
 void remark_on_section(const std::string& name, const fem::BeamProperties& section,
                        std::vector<std::string>& remarks) {
@@ -96,12 +109,13 @@ std::vector<std::string> list_design_remarks(const Design& design) {
   if (const std::optional<support::TomlTable> materials = document.root().find_table("materials")) {
     for (const auto& [name, material] : materials->entries()) remark_on_material(material.table(), remarks);
   }
-  for (std::size_t i = 0; i < design.model.sections.size(); ++i)
+  const double extent = fem::calc_extent(design.model.mesh);
+  for (std::size_t i = 0; i < design.model.sections.size(); ++i) {
+    remark_on_size(design.model.mesh.section_names[i], design.model.sections[i], extent, remarks);
     remark_on_section(design.model.mesh.section_names[i], design.model.sections[i], remarks);
-  const Eigen::Matrix2Xd& places = design.model.mesh.node_positions;
-  const double longest = (places.rowwise().maxCoeff() - places.rowwise().minCoeff()).norm();
-  if (longest > kLongest) {
-    remarks.push_back(fmt::format("the frame is {:.4g} m long; lengths are in m, not in mm", longest));
+  }
+  if (extent > kLongest) {
+    remarks.push_back(fmt::format("the frame is {:.4g} m long; lengths are in m, not in mm", extent));
   }
   const bool joins_otherwise = document.root().has("foundations") || !design.model.couplings.empty();
   if (!joins_otherwise) remark_on_touching(design.model.mesh, remarks);

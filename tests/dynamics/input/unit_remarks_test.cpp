@@ -31,6 +31,32 @@ TEST_CASE("Lengths in millimetres and inertias in kg mm² are remarked on at the
             "cart.toml:31:8: 'forces.rope.free_length' is 5500 m; lengths are in m, not in mm"});
 }
 
+TEST_CASE("Dimensions of suspension elements in other units are remarked on") {
+  const auto with = [](const std::string& element) {
+    return remarks_on("[[forces]]\nname = \"wheel\"",
+                      "[[forces]]\nname = \"leg\"\na = \"arm.tip\"\nb = \"ground.peg\"\n" + element +
+                          "\n[[forces]]\nname = \"wheel\"");
+  };
+  const auto about = [](const std::string& key, const std::string& rule) {
+    return std::vector<std::string>{"cart.toml:43:8: 'forces.leg." + key + "; " + rule};
+  };
+  const auto air = [&](const std::string& height, const std::string& area, const std::string& volume) {
+    return with("type = \"air-spring\"\ngauge_pressure = 4e5\ndesign_height = " + height +
+                "\neffective_area = " + area + "\nvolume = " + volume);
+  };
+  CHECK(air("0.25", "0.05", "0.0125").empty());
+  CHECK(air("250.0", "0.05", "0.0125") == about("design_height' is 250 m", "lengths are in m, not in mm"));
+  CHECK(air("0.25", "500.0", "0.0125") ==
+        about("effective_area' is 500 m²", "areas are in m², not in cm² or mm²"));
+  CHECK(air("0.25", "0.05", "12.5") == about("volume' is 12.5 m³", "volumes are in m³, not in litres"));
+  CHECK(with("type = \"leaf-spring\"\nfree_length = 410.0\nspring = { polynomial = [0.0, 1e5] }\n"
+             "friction = { coefficient = 500.0 }\npresliding_deflection = 0.002") ==
+        about("free_length' is 410 m", "lengths are in m, not in mm"));
+  CHECK(with("type = \"hydraulic-stop\"\ncontact_length = 150.0\nspring = { polynomial = [0.0, 1e5] }\n"
+             "metering = { coefficient = 1e4 }") ==
+        about("contact_length' is 150 m", "lengths are in m, not in mm"));
+}
+
 TEST_CASE("Masses in tonnes are remarked on where inertia and points contradict them") {
   CHECK(remarks_on("mass = 4.0", "mass = 0.004") ==
         std::vector<std::string>{

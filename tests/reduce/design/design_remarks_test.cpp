@@ -8,11 +8,12 @@ using namespace sprung;
 namespace {
 
 std::vector<std::string> remarks_on(const std::string& modulus, const std::string& density, double length,
-                                    const std::string& more = "") {
+                                    const std::string& more = "",
+                                    const std::string& size = "area = 0.01\nsecond_moment = 1e-5\n") {
   const TemporaryFolder folder;
   write_bytes(folder / "beam.toml",
               "[materials.steel]\nyoungs_modulus = " + modulus + "\ndensity = " + density +
-                  "\n[sections.bar]\nmaterial = \"steel\"\narea = 0.01\nsecond_moment = 1e-5\n" + more +
+                  "\n[sections.bar]\nmaterial = \"steel\"\n" + size + more +
                   "[points]\na = "
                   "[0, 0]\nb = [" +
                   std::to_string(length) +
@@ -38,6 +39,19 @@ TEST_CASE("Moduli, densities and lengths in other units are remarked on") {
             "g/cm³ or 7.85e-9 t/mm³"});
   CHECK(remarks_on("2.1e11", "7850", 6000.0) ==
         std::vector<std::string>{"the frame is 6000 m long; lengths are in m, not in mm"});
+}
+
+TEST_CASE("A section in millimetres, larger than its frame, is remarked on") {
+  const auto remarks = [](const std::string& size) { return remarks_on("2.1e11", "7850", 6.0, "", size); };
+  // A rectangle of 200 mm by 300 mm: √A = √60000, radius of gyration 300/√12.
+  CHECK(
+      remarks("shape = \"rectangle\"\nwidth = 200.0\nheight = 300.0\n") ==
+      std::vector<std::string>{
+          "'sections.bar' has the area of a square of 244.9 m and a radius of gyration of 86.6 m, in a frame "
+          "of 6 m; dimensions are in m, not in mm"});
+  CHECK(remarks("area = 0.06\nsecond_moment = 4.5e8\n").size() == 1);    // in m² and mm⁴
+  CHECK(remarks("area = 600.0\nsecond_moment = 4.5e-4\n").size() == 1);  // in cm² and m⁴
+  CHECK(remarks("area = 30.0\nsecond_moment = 4.5e-4\n").empty());
 }
 
 TEST_CASE("A section modulus beyond what area and second moment allow is remarked on") {
