@@ -31,7 +31,8 @@ std::string format_response(const ResponseResult& result) {
       "{}: response to the road at {:g} m/s, linearised about static equilibrium; {} frequencies from {:g} "
       "to {:g} Hz\n",
       result.vehicle.name, result.run.speed, f.size(), f.front(), f.back());
-  for (const std::string& remark : list_remarks(result)) text += remark + "\n";
+  for (const RunWarning& warning : result.warnings) text += fmt::format("warning: {}\n", warning.text);
+  for (const std::string& remark : result.remarks) text += remark + "\n";
   if (result.has_road()) text += fmt::format("Road: r.m.s. height {:.4g} m in this range\n", result.road_rms);
 
   std::vector<std::string> header{"quantity", "unit", fmt::format("per m of road: at {:g} Hz", f.front()),

@@ -41,11 +41,4 @@ ResponseResult calc_response_result(const Run& run, const Vehicle& vehicle, cons
   return result;
 }
 
-std::vector<std::string> list_remarks(const ResponseResult& result) {
-  std::vector<std::string> texts;
-  for (const RunWarning& warning : result.warnings) texts.push_back("warning: " + warning.text);
-  texts.insert(texts.end(), result.remarks.begin(), result.remarks.end());
-  return texts;
-}
-
 }  // namespace sprung::dynamics

@@ -41,7 +41,5 @@ struct ResponseResult {
 ResponseResult calc_response_result(const Run& run, const Vehicle& vehicle, const LinearVehicle& linear,
                                     const LinearOutputs& outputs);
 
-/// Warnings and remarks, in words.
-std::vector<std::string> list_remarks(const ResponseResult& result);
 
 }  // namespace sprung::dynamics

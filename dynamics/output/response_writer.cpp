@@ -68,7 +68,8 @@ void write_response(const std::filesystem::path& path, const ResponseResult& res
   file.write("/model/run_text", std::vector<std::string>{result.run.text});
   file.write("/model/vehicle_text", std::vector<std::string>{result.vehicle.text});
   file.write("/model/overrides", result.overrides);
-  file.write("/remarks", list_remarks(result));
+  write_warnings(file, result.warnings);
+  file.write("/remarks", result.remarks);
   file.commit();
 }
 

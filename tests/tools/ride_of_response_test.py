@@ -86,6 +86,20 @@ class RideOfResponse(ToolTestCase):
         self.assertAlmostEqual(band["value"], np.sqrt(0.08 * np.pi / 3.0 * 7.943 * 0.2308), delta=2e-3)
         self.assertEqual(band["unit"], "m/s^2")
 
+    def test_the_tool_repeats_what_the_program_warned_of(self):
+        write_response(self.folder / "a.h5", {"x": 0.02, "y": 0.08, "angle": 0.01})
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            for name, text in (("concerns", "response"), ("of", "front, rear"), ("text", "both are off the ground")):
+                file[f"warnings/{name}"] = [text]
+            file["remarks"] = ["the dampers have their mean slopes"]
+        printed = self.run_tool("ride", "linear=a.h5").stdout
+        self.assertIn("warning: linear: both are off the ground\n", printed)
+        self.assertIn("remark: linear: the dampers have their mean slopes\n", printed)
+        (run,) = json.loads(self.run_tool("ride", "a.h5", "--json").stdout)["runs"]
+        self.assertEqual(run["warnings"], [{"concerns": "response", "of": ["front", "rear"],
+                                            "text": "both are off the ground"}])  # fmt: skip
+        self.assertEqual((run["remarks"], run["parameters"]), (["the dampers have their mean slopes"], {"speed": 10.0}))
+
     def test_the_tool_prints_it_and_refuses_what_is_not_there(self):
         write_response(self.folder / "a.h5", {"x": 0.02, "y": 0.08, "angle": 0.01})
         process = self.run_tool("ride", "linear=a.h5")

@@ -73,6 +73,15 @@ class JsonOfCommands(DynamicsTestCase):
         self.assertAlmostEqual(found.pop("density"), 1024e-6, delta=1e-12)
         self.assertEqual(found, {"start": 2.0, "length": 50.0, "seed": 7, "ease": 0.0, "band": [0.011, 2.83]})
 
+    def test_ride_tells_the_parameters_of_the_run(self):
+        words = [PROGRAM, "run", "bump.toml", "--json", "--quiet", "--superelements", ".", "-o", "r.h5", "--set",
+                 "duration=0.5", "--set", "modes.chassis=[1, 3]"]  # fmt: skip
+        told = json.loads(run_program(words, cwd=self.folder, check=True).stdout)["parameters"]
+        ride = run_program([ROOT / "tools/ride", "r.h5", "--json"], cwd=self.folder, check=True)
+        (found,) = json.loads(ride.stdout)["runs"]
+        self.assertGreater(len(found["parameters"]), 6)
+        self.assertEqual(found["parameters"], {key: told[key] for key in found["parameters"]})
+
     def test_every_path_is_documented_and_every_documented_one_occurs(self):
         short = ("--set", "duration=0.1", "--set", "modes.chassis=2")
         # A random road; modes chosen; the length of a spring and the pressure of an air spring; an unlikely inertia.

@@ -228,6 +228,10 @@ def main() -> int:
         low, high = response.frequency[0], response.frequency[-1]
         text.append(f"{response.label}: linear, on its random road, from {low:g} to {high:g} Hz")
     doubts = list_doubts(runs)
+    for response in responses:
+        told = describe_response(response)
+        doubts += [f"warning: {response.label}: {warning['text']}" for warning in told["warnings"]]
+        doubts += [f"remark: {response.label}: {remark}" for remark in told["remarks"]]
     for run, some, window in zip(runs, points, windows):
         remarks = list_remarks(run.results, some, window) + list_moment_remarks(run.results, arguments.superelements)
         doubts += [f"remark: {run.label}: {remark}" for remark in remarks]

@@ -28,4 +28,8 @@ RESPONSE_LAYOUT = Layout({
     "frequency": Numbers((None,)),
     "outputs/**/response": Numbers(("frequency", 2)),
     "outputs/**/spectrum": Numbers(("frequency",)),
+    "warnings/concerns": Texts("warnings/text"),
+    "warnings/of": Texts("warnings/text"),
+    "warnings/text": Texts(),
+    "remarks": Texts(),
 })  # fmt: skip

@@ -40,7 +40,7 @@ from sprung_tools.runs.ride_measures import (
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, calc_linear_bands, list_points
 from sprung_tools.runs.rounding import read_acceleration
-from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, list_warnings
+from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, RunWarning, list_warnings, read_warnings
 from sprung_tools.runs.section_stress import FROM_MODES, calc_section_stress, list_sources, list_stressed_bodies
 from sprung_tools.runs.stored_histories import list_gaps
 from sprung_tools.runs.vehicle_modes import WHERE
@@ -272,22 +272,41 @@ def is_converged(results: ResultsFile) -> bool:
 
 def describe_run(results: ResultsFile, window: Span) -> dict[str, Any]:
     """What stands beside the measures of a run in JSON."""
-    warnings = [{"concerns": one.section, "of": one.of, "text": one.text} for one in list_warnings(results)]
     return {
         "kind": "run", "title": results.title, "set": read_overrides(results.file),
-        "span": {"from": window[0], "to": window[1], "unit": "s"},
-        "converged": is_converged(results), "warnings": warnings, "not_stored": list_gaps(results),
+        "parameters": read_parameters(results), "span": {"from": window[0], "to": window[1], "unit": "s"},
+        "converged": is_converged(results), "warnings": pack_warnings(list_warnings(results)),
+        "not_stored": list_gaps(results),
     }  # fmt: skip
+
+
+def read_parameters(results: ResultsFile) -> dict[str, Any]:
+    """What was asked for in a run, by the names of `sprung-dynamics run --json`."""
+    names = {"speed": "speed", "duration": "duration", "output_step": "output_step", "method": "integrator",
+             "relative_tolerance": "relative_tolerance"}  # fmt: skip
+    stored = results.file.attributes("model")
+    found = {name: stored[key] for name, key in names.items() if key in stored}
+    if results.file.has_group("model/road"):
+        found["road"] = read_text(results.file, "model/road", "shape")
+    flexible = [body for body in results.names("bodies") if results.num_modes(body)]
+    return {**found, "modes": {body: [int(one) for one in results.mode_numbers(body)] for body in flexible}}
 
 
 def describe_response(response: Response) -> dict[str, Any]:
     """What stands beside the measures of a response in JSON."""
-    remarks = read_texts(response.file, "remarks") if response.file.has_dataset("remarks") else []
+    file = response.file
     return {
-        "kind": "response", "title": read_text(response.file, "", "title", ""), "set": read_overrides(response.file),
+        "kind": "response", "title": read_text(file, "", "title", ""), "set": read_overrides(file),
+        "parameters": {"speed": read_real(file, "", "speed")},
         "span": {"from": float(response.frequency[0]), "to": float(response.frequency[-1]), "unit": "Hz"},
-        "converged": True, "warnings": [{"concerns": "response", "of": (), "text": text} for text in remarks],
+        "converged": True, "warnings": pack_warnings(read_warnings(file) if file.has_group("warnings") else []),
+        "remarks": read_texts(file, "remarks") if file.has_dataset("remarks") else [],
     }  # fmt: skip
+
+
+def pack_warnings(warnings: Iterable[RunWarning]) -> list[dict[str, Any]]:
+    """Warnings for JSON."""
+    return [{"concerns": one.section, "of": one.of, "text": one.text} for one in warnings]
 
 
 def read_overrides(file: StoredFile) -> list[str]:

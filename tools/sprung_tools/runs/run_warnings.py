@@ -9,6 +9,7 @@ import numpy as np
 from sprung_tools.files.array_types import Flags
 from sprung_tools.files.hdf5_file import read_texts
 from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.files.stored_file import StoredFile
 from sprung_tools.model.force_channels import CONTACT, find_force_channel
 from sprung_tools.model.resolved_model import has_resolved_model, read_elements, read_settings
 from sprung_tools.runs.labelled_runs import Run
@@ -24,8 +25,8 @@ SUMMARY, MODES, EQUILIBRIUM = "summary", "modes", "equilibrium"  # which numbers
 
 
 class RunWarning(NamedTuple):
-    """A warning: the numbers it concerns (SUMMARY, MODES, EQUILIBRIUM), what these are of (bodies, points; empty: all),
-    the text."""
+    """A warning: the numbers it concerns (SUMMARY, MODES, EQUILIBRIUM; of a response "response"), what these are of
+    (bodies, points; empty: all), the text."""
 
     section: str
     of: tuple[str, ...]
@@ -35,7 +36,7 @@ class RunWarning(NamedTuple):
 def list_warnings(results: ResultsFile) -> list[RunWarning]:
     """All warnings of a run, the gravest first."""
     if results.file.has_group("warnings"):
-        given = read_warnings(results)
+        given = read_warnings(results.file)
     elif not has_resolved_model(results):  # of version 1
         return warn_of_energy(results)
     else:
@@ -43,9 +44,9 @@ def list_warnings(results: ResultsFile) -> list[RunWarning]:
     return [*given, *warn_of_wheels_in_the_air(results)]
 
 
-def read_warnings(results: ResultsFile) -> list[RunWarning]:
-    """The warnings that sprung-dynamics gave."""
-    concerns, of, texts = (read_texts(results.file, f"warnings/{name}") for name in ("concerns", "of", "text"))
+def read_warnings(file: StoredFile) -> list[RunWarning]:
+    """The warnings that sprung-dynamics gave, in a file of results or of a response."""
+    concerns, of, texts = (read_texts(file, f"warnings/{name}") for name in ("concerns", "of", "text"))
     return [
         RunWarning(section, tuple(filter(None, names.split(", "))), text)
         for section, names, text in zip(concerns, of, texts)
