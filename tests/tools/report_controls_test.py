@@ -36,6 +36,7 @@ class Controls(PageTestCase):
         return cases | {
             "labels": self.use_labels,
             "scene-png": self.save_png("scene-png"),
+            "mode-scene-png": self.save_png("mode-scene-png"),
             "scene-webm": self.save_webm,
             "bands-point": self.use_bands_point,
             "load-body": self.use_load_body,
@@ -125,6 +126,9 @@ class Controls(PageTestCase):
         self.assert_changed(before, page.picture(selector="#scene"))
 
     def use_magnification(self, page):
+        # Ten times the largest deflection is less than 6 % of the vehicle's length.
+        self.assertEqual(page.evaluate("[player.magnification, document.getElementById('magnification').value]"),
+                         [10, "10"])  # fmt: skip
         self.set_time(page, 0.75)
         self.choose(page, "magnification", 1)
         before = page.picture(selector="#scene")

@@ -2,6 +2,7 @@
 the browser, and what a hand does on the page. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS); pictures are kept
 in the folder SPRUNG_SCREENSHOTS."""
 
+import itertools
 import os
 import tempfile
 import unittest
@@ -65,6 +66,22 @@ class PageTestCase(unittest.TestCase):
         self.assertEqual(page.problems(), [])
         self.addCleanup(lambda: self.assertEqual(page.problems(), []))
         return page
+
+    def check_views(self, name, time):
+        """Opens a page in both sizes and colour schemes, and keeps its pictures: nothing has to be scrolled sideways,
+        and nothing hidden takes space."""
+        for size, dark in itertools.product(SIZES, (False, True)):
+            with self.subTest(page=name, size=size, dark=dark):
+                page = self.open(f"{name}.html", size=size, dark=dark)
+                self.set_time(page, time)
+                picture = page.picture(PICTURES / f"{name}_{size}_{'dark' if dark else 'light'}.png")
+                self.assertEqual(picture.shape[1], SIZES[size][0])
+                self.assertEqual(np.mean(picture) < 0.5, dark)
+                hidden = (
+                    "[...document.querySelectorAll('[hidden]')]"
+                    ".filter((one) => one.getBoundingClientRect().height > 0).length"
+                )
+                self.assertEqual(page.evaluate(hidden), 0)
 
     def set_time(self, page, time):
         """By the scrubber, as a hand does."""

@@ -150,7 +150,7 @@ function connectControls() {
       setPlaying(!player.playing);
     }
   });
-  byId("scene-png").addEventListener("click", () => byId("scene").toBlob((blob) => saveFile("scene.png", blob), "image/png"));
+  byId("scene-png").addEventListener("click", () => saveCanvas("scene"));
   byId("scene-webm").hidden = !canRecord();
   byId("scene-webm").addEventListener("click", (event) => recordAnimation(event.currentTarget));
 }

@@ -10,6 +10,11 @@ function saveFile(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);  // when it has long been read
 }
 
+/** Saves what the canvas NAME shows as NAME.png. */
+function saveCanvas(name) {
+  byId(name).toBlob((blob) => saveFile(`${name}.png`, blob), "image/png");
+}
+
 const quote = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
 /** Rows of numbers and texts with a heading line. A value that is not there is an empty cell. */

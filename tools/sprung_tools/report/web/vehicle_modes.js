@@ -109,6 +109,7 @@ function makeVehicleModes() {
     drawVehicleMode();
   });
   byId("mode-play").addEventListener("click", () => playMode(!modeShow.playing));
+  byId("mode-scene-png").addEventListener("click", () => saveCanvas("mode-scene"));
   redraws.push(drawVehicleMode);
   choose();
 }
