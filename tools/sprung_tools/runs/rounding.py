@@ -14,6 +14,11 @@ def clear_rounding(values: Floats, size: float) -> Floats:
     return np.zeros_like(values) if np.max(np.abs(values)) < ROUNDING * size else values
 
 
+def clear_each(values: Floats, size: float) -> Floats:
+    """Values that do not belong together, as extremes; zero where one is rounding of something of this size."""
+    return np.where(np.abs(values) < ROUNDING * size, 0.0, values)
+
+
 def calc_size(results: ResultsFile, point: str, what: str) -> float:
     """The size that rounding of a point's motion is judged by: the largest of the vector over the run, of its position
     for a displacement; an acceleration is at least of gravity's size. point: its group, `points/chassis.seat`."""
