@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
@@ -147,7 +148,7 @@ EffectiveModes::Mode EffectiveModes::make_lone_mode(int coordinate) const {
 }
 
 double EffectiveModes::calc_frequency(std::size_t mode) const {
-  return std::sqrt(modes_[mode].stiffness / modes_[mode].mass) / (2.0 * std::acos(-1.0));
+  return std::sqrt(modes_[mode].stiffness / modes_[mode].mass) / (2.0 * std::numbers::pi);
 }
 
 }  // namespace sprung::dynamics

@@ -17,8 +17,9 @@ struct ZeroTolerance {
 };
 
 /// A zero of a continuous function of one variable by the Illinois rule: secant steps, in which the value at
-/// an end that stays is halved. @return the argument evaluated last; b if none was Source: [Dowell & Jarratt
-/// 1971]
+/// an end that stays is halved.
+/// @return the argument evaluated last; b if none was
+/// Source: [Dowell & Jarratt 1971]
 template <class Function>
 double find_zero(const Function& function, ZeroBracket ends, const ZeroTolerance& tolerance) {
   auto [a, value_a, b, value_b] = ends;

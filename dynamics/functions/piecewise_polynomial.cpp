@@ -152,15 +152,6 @@ void PiecewisePolynomial::continue_straight(double at, double rate, bool below) 
   rebuild_integrals();
 }
 
-void PiecewisePolynomial::cut_off_below(double at) {
-  const double value_at = value(at);
-  if (value_at != 0.0) {
-    throw std::invalid_argument(
-        fmt::format("PiecewisePolynomial::cut_off_below: must be 0 at {}, got {}", at, value_at));
-  }
-  continue_straight(at, 0.0, true);
-}
-
 double PiecewisePolynomial::value(double x) const {
   const std::size_t i = find_piece(x);
   return evaluate(coefficients(i), x - origins_[i]);

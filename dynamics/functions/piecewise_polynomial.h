@@ -35,8 +35,6 @@ class PiecewisePolynomial {
 
   /// Replaces the function beyond `at` (below = true: before `at`) by a straight line with slope `rate`.
   void continue_straight(double at, double rate, bool below);
-  /// Makes the function zero below `at`, where its value must be zero.
-  void cut_off_below(double at);
 
   double value(double x) const;
   double slope(double x) const;      ///< from the right at a break

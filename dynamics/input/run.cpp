@@ -229,10 +229,6 @@ Run read_run(const support::TomlDocument& document) {
   return run;
 }
 
-std::unique_ptr<Road> make_road(const Run& run) {
-  return make_road(run.road);
-}
-
 ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle) {
   ModeRequests requests = run.modes;
   if (run.adaptivity.enabled) {  // "auto" chooses from the modes that may be recalled
@@ -263,14 +259,6 @@ ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selec
     all.erase(std::unique(all.begin(), all.end()), all.end());
   }
   return available;
-}
-
-ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle) {
-  return resolve_modal_damping(run.modal_damping, selection, vehicle);
-}
-
-StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle) {
-  return resolve_stiffening(run.stiffening, selection, vehicle);
 }
 
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle) {

@@ -97,13 +97,10 @@ std::string_view start_name(Run::Start start);
 /// Checked by tests/dynamics/input/run_test.cpp
 Run read_run(const support::TomlDocument& document);
 
-std::unique_ptr<Road> make_road(const Run& run);
 ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle);
 /// The modes that may become active: those selected and, with adaptivity, the others that are available.
 /// @throws support::InputError as resolve_modes
 ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle);
-ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
-StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
 
 /// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
 /// @throws support::InputError at a reference to a point that the vehicle lacks, or to anything in

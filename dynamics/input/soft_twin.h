@@ -32,8 +32,7 @@ struct SoftTwin {
 
 /// @param model  of the vehicle, with the whole basis of each body that has modes
 /// @throws support::InputError at a body whose soft twin does not exist: without a bound, with a part of its
-/// basis,
-///         with stiffening, or with loads at freedoms that are not in its interface
+///         basis, with stiffening, or with loads at freedoms that are not in its interface
 /// Checked by tests/dynamics/input/soft_twin_test.cpp and tests/verification/certified_test.py
 SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model);
 

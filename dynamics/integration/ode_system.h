@@ -29,9 +29,8 @@ class OdeSystem {
   /// @return false where f cannot be evaluated; the integrator then tries a shorter step
   virtual bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) = 0;
   virtual int num_switches() const = 0;
-  /// @param[out] values  positive while the formulas hold that calc_derivative uses, negative beyond; smooth
-  /// in
-  ///                     time
+  /// @param[out] values  positive while the formulas hold that calc_derivative uses, negative beyond;
+  ///                     smooth in time
   virtual bool calc_switches(double time, std::span<const double> y, std::span<double> values) = 0;
   /// Natural size of each component: the relative tolerance times this is the error allowed in a step.
   virtual void calc_error_scales(std::span<const double> y, std::span<double> scales) const = 0;

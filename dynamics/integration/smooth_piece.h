@@ -25,8 +25,7 @@ class SmoothPiece {
 
   const std::vector<int>& branches() const { return branches_; }
   void set_branches(const std::vector<int>& branches) { branches_ = branches; }
-  /// Chooses the branches that hold at the state of the terms. @return the changes that
-  /// are worth an event
+  /// Chooses the branches that hold at the state of the terms. @return the changes that are worth an event
   std::vector<BranchChange> update_branches(const SystemTerms& terms);
 
   int num_switches() const { return num_switches_; }

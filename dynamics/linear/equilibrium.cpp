@@ -103,6 +103,12 @@ void require_moderate_stiffness(const Model& model, const LinearisedSystem& syst
 
 }  // namespace
 
+std::vector<std::string> Equilibrium::describe_neutral() const {
+  std::vector<std::string> texts;
+  for (const NeutralDirection& one : neutral) texts.push_back(one.description);
+  return texts;
+}
+
 Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
                              const std::function<void(int, double)>& on_iteration,
                              const SteadyMotion& motion) {

@@ -30,6 +30,7 @@ struct Equilibrium {
   /// Size of the last step that counts as accurate [natural sizes].
   static constexpr double kTolerance = 1e-12;
   bool is_usual() const { return last_step <= kTolerance; }
+  std::vector<std::string> describe_neutral() const;
 };
 
 /// Static equilibrium reached from q by descent of the potential energy: Newton's method in the modes of the

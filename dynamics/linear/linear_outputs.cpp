@@ -190,24 +190,6 @@ LinearOutputs make_point_outputs(const LinearVehicle& vehicle, int marker) {
   return outputs;
 }
 
-LinearOutputs make_mode_share_outputs(const LinearVehicle& vehicle, int marker) {
-  const Marker& point = vehicle.model().markers[static_cast<std::size_t>(marker)];
-  if (point.body == kGround) return make_empty(vehicle, 0);
-  const Body& body = vehicle.model().bodies[static_cast<std::size_t>(point.body)];
-  const Eigen::MatrixXd jacobian = calc_marker_jacobian(vehicle.equations().terms(), marker);
-  LinearOutputs outputs = make_empty(vehicle, 6 * body.num_modes());
-  for (int k = 0; k < body.num_modes(); ++k) {
-    const int coordinate = body.first_coordinate + 3 + k;
-    const Eigen::MatrixXd motion = jacobian.col(coordinate) * vehicle.system().directions.row(coordinate);
-    const std::string group =
-        fmt::format("points/{}/mode {}", point.name, body.mode_numbers[static_cast<std::size_t>(k)]);
-    const OutputSubject subject{.kind = Kind::kModeShare, .object = marker};
-    add_motion(outputs, 6 * k, 0, motion, group, subject);
-    add_motion(outputs, 6 * k + 3, 2, motion, group, subject);
-  }
-  return outputs;
-}
-
 LinearOutputs make_modal_outputs(const LinearVehicle& vehicle) {
   LinearOutputs outputs = make_empty(vehicle, 0);
   for (std::size_t b = 0; b < vehicle.model().bodies.size(); ++b) {

@@ -10,7 +10,7 @@ namespace sprung::dynamics {
 
 /// The meaning of an output, by which code selects outputs.
 struct OutputSubject {
-  enum class Kind { kPoint, kModeShare, kMode, kChannel, kReaction, kMoment };
+  enum class Kind { kPoint, kMode, kChannel, kReaction, kMoment };
   enum class Derivative { kDisplacement, kVelocity, kAcceleration };
   Kind kind = Kind::kPoint;
   /// Marker; for kMode and kMoment the body, for kChannel the force element, for kReaction the joint.
@@ -43,10 +43,6 @@ struct LinearOutputs {
 
 /// Displacement, velocity and acceleration of a marker: x, y and angle of each, world axes, 9 outputs.
 LinearOutputs make_point_outputs(const LinearVehicle& vehicle, int marker);
-
-/// The contribution of each mode of a marker's body to its displacement and acceleration: x, y and angle of
-/// each, 6 outputs for each mode. With the rigid motion of the body frame they add up to the marker's motion.
-LinearOutputs make_mode_share_outputs(const LinearVehicle& vehicle, int marker);
 
 /// Amplitude and acceleration of every mode of every body.
 LinearOutputs make_modal_outputs(const LinearVehicle& vehicle);

@@ -12,13 +12,12 @@ LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
       equations_(model),
       system_(linearise(equations_, 0.0, q)),
       damping_at_rest_(system_.damping),
-      solver_(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding),
-      branches_(static_cast<std::size_t>(model.num_branches)) {
+      solver_(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding) {
   const Eigen::VectorXd q_i = independent_positions();
   kinks_ = find_kinks(equations_, 0.0, q_i);
   calc_static_force(equations_, 0.0, q_i);
   equations_.update_all_markers();
-  equations_.terms().choose_branches(branches_);
+  branches_ = equations_.terms().find_branches();
 
   channel_rows_.push_back(0);
   for (std::size_t f = 0; f < model.forces.size(); ++f) {
@@ -44,12 +43,7 @@ void LinearVehicle::set_state_law(std::size_t force, const StateLinearisation& l
 }
 
 Eigen::VectorXd LinearVehicle::independent_positions() const {
-  const std::vector<int>& independent = system_.partition.independent;
-  Eigen::VectorXd q_i(static_cast<Eigen::Index>(independent.size()));
-  for (std::size_t k = 0; k < independent.size(); ++k) {
-    q_i[static_cast<Eigen::Index>(k)] = q_[independent[k]];
-  }
-  return q_i;
+  return q_(system_.partition.independent);
 }
 
 RoadAction LinearVehicle::calc_road_action(const RoadWave& wave) const {

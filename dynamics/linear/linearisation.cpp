@@ -11,12 +11,6 @@ namespace sprung::dynamics {
 
 namespace {
 
-std::vector<int> branches_at(const PartitionedEquations& equations) {
-  std::vector<int> branches(static_cast<std::size_t>(equations.terms().model().num_branches));
-  equations.terms().choose_branches(branches);
-  return branches;
-}
-
 constexpr double kClosed = 1e-12;  // of the length scale: how exactly PartitionedEquations closes joints
 
 // K x of the bodies' modes, or |K| x. @param x  nq×k   @return nq×k
@@ -80,7 +74,7 @@ Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time,
     rest[k] = w[equations.partition().independent[static_cast<std::size_t>(k)]];
   }
   equations.update_velocities({rest.data(), size});
-  const std::vector<int> branches = branches_at(equations);
+  const std::vector<int> branches = equations.terms().find_branches();
   if (equations.update_accelerations(branches) != Outcome::kGood) return {};
   if (potential) {
     const Energy energy = calc_energy(equations.terms(), branches);

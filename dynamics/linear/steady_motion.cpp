@@ -22,21 +22,15 @@ Eigen::VectorXd calc_carried_acceleration(const Model& model, const SteadyMotion
                                           const Eigen::VectorXd& q, double time) {
   PartitionedEquations equations(model);
   equations.choose_partition_at(time, q);
-  Eigen::VectorXd q_i(equations.num_freedoms()), v_i(equations.num_freedoms());
-  const Eigen::VectorXd w = motion.calc_velocity(model, q);
-  for (Eigen::Index k = 0; k < q_i.size(); ++k) {
-    q_i[k] = q[equations.partition().independent[static_cast<std::size_t>(k)]];
-    v_i[k] = w[equations.partition().independent[static_cast<std::size_t>(k)]];
-  }
+  const Eigen::VectorXd q_i = q(equations.partition().independent);
+  const Eigen::VectorXd v_i = motion.calc_velocity(model, q)(equations.partition().independent);
   if (equations.update_positions(time, support::as_span(q_i)) != PartitionedEquations::Outcome::kGood)
     return {};
   for (int i = 0; i < model.num_coordinates; ++i) {
     if (std::abs(equations.q()[i] - q[i]) > kAllowed * model.coordinate_scale(i)) return {};
   }
   equations.update_velocities(support::as_span(v_i));
-  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
-  equations.terms().choose_branches(branches);
-  equations.update_accelerations(branches);
+  equations.update_accelerations(equations.terms().find_branches());
   const Eigen::VectorXd relative =
       equations.v_dot() - motion.calc_acceleration(model, equations.q(), equations.v());
   return motion.rotate_back(model, relative, time);

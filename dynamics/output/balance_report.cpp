@@ -23,11 +23,10 @@ struct RestingForces {
   SystemTerms terms;
   std::vector<int> branches;
 
-  RestingForces(const Model& model, const Eigen::VectorXd& q)
-      : terms(model), branches(static_cast<std::size_t>(model.num_branches)) {
+  RestingForces(const Model& model, const Eigen::VectorXd& q) : terms(model) {
     terms.update_positions(0.0, q);
     terms.update_velocities(Eigen::VectorXd::Zero(model.num_coordinates));
-    terms.choose_branches(branches);
+    branches = terms.find_branches();
   }
   std::vector<double> channels(std::size_t force_index) const {
     const Model& model = terms.model();
@@ -45,12 +44,6 @@ std::string format_warnings(const std::vector<RunWarning>& warnings) {
     if (!goes_to_stderr(warning)) text += fmt::format("\nwarning: {}\n", warning.text);
   }
   return text;
-}
-
-std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
-  std::vector<std::string> texts;
-  for (const NeutralDirection& direction : equilibrium.neutral) texts.push_back(direction.description);
-  return texts;
 }
 
 }  // namespace
@@ -81,7 +74,7 @@ std::string format_equilibrium(const BalanceReport& report) {
     text += fmt::format("Joints closed first: {} moved {:.3g} m\n", report.assembly.moved_marker,
                         report.assembly.largest_movement);
   }
-  for (const std::string& neutral : neutral_descriptions(equilibrium)) {
+  for (const std::string& neutral : equilibrium.describe_neutral()) {
     text += fmt::format("Neutral, held at its start value: {}\n", neutral);
   }
   support::TextTable bodies({"body", "x m", "y m", "angle rad", "from file: x mm", "y mm", "angle mrad"});
@@ -131,7 +124,7 @@ Json make_equilibrium_json(const BalanceReport& report) {
   return {{"bodies", bodies},
           {"forces", forces},
           {"sections", report.sections ? make_sections_json(*report.sections) : Json::object()},
-          {"neutral", neutral_descriptions(report.equilibrium)},
+          {"neutral", report.equilibrium.describe_neutral()},
           {"stable", report.equilibrium.stable},
           {"iterations", report.equilibrium.iterations},
           {"last_step", report.equilibrium.last_step}};

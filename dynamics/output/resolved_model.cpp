@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "dynamics/output/parameter_writer.h"
@@ -64,7 +65,7 @@ void write_modes_of(support::Hdf5Writer& file, const std::string& group, const B
       active[static_cast<std::size_t>(k)] = adaptivity->active[coordinate] ? 1 : 0;
     }
     const double omega = std::sqrt(body.stiffness(k, k) / body.modal_mass[k]);
-    frequency[k] = omega / (2.0 * std::acos(-1.0));
+    frequency[k] = omega / (2.0 * std::numbers::pi);
     ratio[k] = 0.5 * body.damping(k, k) / (omega * body.modal_mass[k]);
   }
   const std::vector<std::int64_t> numbers(body.mode_numbers.begin(), body.mode_numbers.end());

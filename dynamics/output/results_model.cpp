@@ -94,12 +94,8 @@ void write_equilibrium(support::Hdf5Writer& file, const ResultsHeader& header) {
     file.write("/model/equilibrium/points/" + model.markers[i].name, position, "m");
   }
   file.attribute("/model/equilibrium", "is_static_equilibrium", std::int64_t{header.equilibrium != nullptr});
-  std::vector<std::string> neutral;
-  if (header.equilibrium) {
-    for (const NeutralDirection& direction : header.equilibrium->neutral)
-      neutral.push_back(direction.description);
-  }
-  file.write("/model/equilibrium/neutral", neutral);
+  file.write("/model/equilibrium/neutral",
+             header.equilibrium ? header.equilibrium->describe_neutral() : std::vector<std::string>{});
 }
 
 void write_modes(support::Hdf5Writer& file, const ResultsHeader& header) {
@@ -126,16 +122,15 @@ void write_modes(support::Hdf5Writer& file, const ResultsHeader& header) {
 }
 
 void write_section_peaks(support::Hdf5Writer& file, const SectionStatistics& statistics) {
-  constexpr std::array<const char*, 3> kQuantities{"axial", "shear", "moment"};
   for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
     const BodySections& body = statistics.sections().bodies()[b];
     const SectionPeaks& peaks = statistics.peaks()[b];
     const std::string group = "/summary/sections/" + body.name();
     file.make_group(group);
-    for (std::size_t i = 0; i < kQuantities.size(); ++i) {
+    for (std::size_t i = 0; i < kQuantityNames.size(); ++i) {
       const auto write = [&](bool is_known, const char* ending, const SectionPeak& peak) {
         if (!is_known) return;
-        const std::string name = std::string(kQuantities[i]) + ending;
+        const std::string name = std::string(kQuantityNames[i]) + ending;
         file.attribute(group, name, peak.value);
         file.attribute(group, name + "_station", std::int64_t{peak.station});
         file.attribute(group, name + "_time", peak.time);

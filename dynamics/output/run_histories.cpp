@@ -255,15 +255,15 @@ void RunHistories::add_wrenches(std::size_t f) {
 }
 
 void RunHistories::add_sections(const VehicleSections& sections) {
-  constexpr std::array<const char*, 3> kNames{"axial", "shear", "moment"}, kUnits{"N", "N", "N m"};
+  constexpr std::array<const char*, 3> kUnits{"N", "N", "N m"};
   for (const BodySections& body : sections.bodies()) {
     begin(StoredGroup::kRecovery, body.name());
     const std::string group = "/recovery/" + body.name() + "/";
     const auto add_all = [&](const std::string& ending, const Eigen::Matrix3Xd& values) {
       for (Eigen::Index i = 0; i < 3; ++i) {
         const auto quantity = static_cast<std::size_t>(i);
-        add(group + kNames[quantity] + ending, static_cast<std::size_t>(values.cols()), kUnits[quantity],
-            [&values, i](const Snapshot&, std::span<double> row) {
+        add(group + kQuantityNames[quantity] + ending, static_cast<std::size_t>(values.cols()),
+            kUnits[quantity], [&values, i](const Snapshot&, std::span<double> row) {
               for (Eigen::Index k = 0; k < values.cols(); ++k)
                 row[static_cast<std::size_t>(k)] = values(i, k);
             });

@@ -89,8 +89,7 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
                         assembly.largest_movement);
   }
   if (equilibrium) {
-    std::vector<std::string> neutral;
-    for (const NeutralDirection& direction : equilibrium->neutral) neutral.push_back(direction.description);
+    const std::vector<std::string> neutral = equilibrium->describe_neutral();
     text += fmt::format(
         "{}{} after {} iterations{}{}\n",
         run.start == Run::Start::kSteady ? "Steady motion" : "Static equilibrium",

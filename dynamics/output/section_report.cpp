@@ -38,19 +38,18 @@ std::string format_sections(const SectionStatistics& statistics) {
 }
 
 Json make_sections_json(const SectionStatistics& statistics) {
-  constexpr std::array<const char*, 3> kQuantities{"axial", "shear", "moment"};
   Json bodies = Json::object();
   for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
     const BodySections& body = statistics.sections().bodies()[b];
     const SectionPeaks& peaks = statistics.peaks()[b];
     Json quantities = Json::object();
-    for (std::size_t i = 0; i < kQuantities.size(); ++i) {
+    for (std::size_t i = 0; i < kQuantityNames.size(); ++i) {
       const auto describe = [&](const SectionPeak& peak) -> Json {
         return {{"value", peak.value},
                 {"position", {body.positions()(peak.station, 0), body.positions()(peak.station, 1)}},
                 {"time", peak.time}};
       };
-      Json& quantity = quantities[kQuantities[i]];
+      Json& quantity = quantities[kQuantityNames[i]];
       if (body.has_loads()) quantity["from_loads"] = describe(peaks.from_loads[i]);
       if (body.has_modes()) quantity["from_modes"] = describe(peaks.from_modes[i]);
       if (body.has_loads() && body.has_modes()) quantity["difference"] = describe(peaks.difference[i]);

@@ -121,8 +121,8 @@ Flexibility choose_modes(PreparedRun& prepared) {
   const Vehicle& vehicle = prepared.vehicle;
   prepared.selection = resolve_modes(run, vehicle);
   prepared.available = resolve_available_modes(run, prepared.selection, vehicle);
-  Flexibility flexibility{.damping = resolve_modal_damping(run, prepared.available, vehicle),
-                          .stiffened = resolve_stiffening(run, prepared.available, vehicle)};
+  Flexibility flexibility{.damping = resolve_modal_damping(run.modal_damping, prepared.available, vehicle),
+                          .stiffened = resolve_stiffening(run.stiffening, prepared.available, vehicle)};
   if (run.adaptivity.enabled && !flexibility.stiffened.empty()) {
     throw support::InputError(
         run.adaptivity.location,
@@ -230,7 +230,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   const Vehicle& vehicle = prepared.vehicle;
   prepared.output_points = resolve_output_points(prepared.run, vehicle);
   prepared.level_road = std::make_unique<FlatRoad>();
-  prepared.road = make_road(prepared.run);
+  prepared.road = make_road(prepared.run.road);
   // Where the statistics contain it, a warning of the run says so.
   const std::string in_statistics =
       describe_missed_road(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.statistics_to);

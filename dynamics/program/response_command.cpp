@@ -91,8 +91,7 @@ std::vector<RunWarning> list_lifting_wheels(const PreparedRun& prepared, const L
   SystemTerms terms(model);
   terms.update_positions(0.0, prepared.equilibrium->q);
   terms.update_velocities(Eigen::VectorXd::Zero(model.num_coordinates));
-  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
-  terms.choose_branches(branches);
+  const std::vector<int> branches = terms.find_branches();
   for (std::size_t i = 0; i < result.subjects.size(); ++i) {
     const OutputSubject& subject = result.subjects[i];
     if (subject.kind != OutputSubject::Kind::kChannel || subject.role != ChannelRole::kForce) continue;

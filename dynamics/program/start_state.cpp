@@ -123,8 +123,7 @@ std::vector<WheelSpeed> find_wheels_of_other_speed(const PreparedRun& prepared) 
   SystemTerms terms(model);
   terms.update_positions(prepared.start.time, prepared.start.q);
   terms.update_velocities(v);
-  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
-  terms.choose_branches(branches);
+  const std::vector<int> branches = terms.find_branches();
   std::vector<WheelSpeed> wheels;
   for (std::size_t f = 0; f < model.forces.size(); ++f) {
     const ForceElement& force = *model.forces[f];

@@ -13,12 +13,11 @@ RestingSections calc_resting_sections(const Vehicle& vehicle, const Model& model
   if (sections.bodies().empty()) return resting;
   ConstrainedEquations equations(model, SystemTerms::Markers::kAll);
   const Eigen::VectorXd v = equilibrium.motion.calc_velocity(model, equilibrium.q);
-  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
   SystemTerms& terms = equations.terms();
   terms.update_positions(0.0, equilibrium.q);
   terms.update_jacobian();
   terms.update_velocities(v);
-  terms.choose_branches(branches);
+  const std::vector<int> branches = terms.find_branches();
   if (!equations.update_accelerations(branches)) {
     throw support::NumericalError(
         "the accelerations at the equilibrium cannot be computed: constraints depend on each other");

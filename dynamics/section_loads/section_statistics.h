@@ -15,6 +15,9 @@ struct SectionPeak {
   double time = 0.0;  ///< [s]
 };
 
+/// As files and JSON call SectionPeaks::Quantity.
+inline constexpr std::array<const char*, 3> kQuantityNames{"axial", "shear", "moment"};
+
 /// The largest axial force, shear force and bending moment of a body in a run, and how much the two ways to
 /// find them differ.
 struct SectionPeaks {

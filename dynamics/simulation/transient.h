@@ -45,8 +45,7 @@ struct Snapshot {
   std::span<const int> branches;
   EnergyBook energy;
   const ModeAdaptation* modes;  ///< active modes, and the neglect of the others; null without adaptivity
-  /// Estimated error of `equations.v_dot()`; null where there is no estimate, and at
-  /// three of four outputs.
+  /// Estimated error of `equations.v_dot()`; null where there is no estimate, and at three of four outputs.
   const Eigen::VectorXd* acceleration_error;
 
   const SystemTerms& terms() const { return equations.terms(); }

@@ -52,7 +52,6 @@ class DependentSolver {
   /// which another partition is chosen, and at a change point, which is passed in a step of its own.
   bool is_mirrored() const;
   int num_factor_entries() const;
-  int num_blocks() const { return static_cast<int>(singles_.size() + blocks_.size()); }
 
  private:
   struct Entry {

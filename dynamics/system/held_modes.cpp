@@ -53,7 +53,6 @@ Body hold(const Body& full, const Split& split) {
   body.name = full.name;
   body.mass = full.mass;
   body.first_moment = full.first_moment + full.P(Eigen::all, held) * eta;
-  const Eigen::MatrixXd M_tt_held = full.M_tt(Eigen::all, held);
   body.second_moment =
       full.second_moment + 2.0 * full.d(held).dot(eta) + eta.dot(full.M_tt(held, held) * eta);
   body.P = full.P(Eigen::all, active);

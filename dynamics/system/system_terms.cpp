@@ -125,4 +125,10 @@ void SystemTerms::choose_branches(std::span<int> branches) const {
   }
 }
 
+std::vector<int> SystemTerms::find_branches() const {
+  std::vector<int> branches(static_cast<std::size_t>(model_->num_branches));
+  choose_branches(branches);
+  return branches;
+}
+
 }  // namespace sprung::dynamics

@@ -111,6 +111,7 @@ class SystemTerms {
   void set_has_accelerations() { set(Term::kAccelerations); }
 
   void choose_branches(std::span<int> branches) const;
+  std::vector<int> find_branches() const;  ///< the same, of all force elements
   /// Positions and velocities of all markers at the present q and v, whatever the scope.
   void update_all_markers();
   std::span<const MarkerState> markers() const {

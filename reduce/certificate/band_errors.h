@@ -27,7 +27,7 @@ struct BandErrors {
 /// @param highest  ω² at the end of the band; cutoff  λ_c > highest, below which the residual has no mode
 ///                 [rad²/s²]
 /// @throws std::invalid_argument if cutoff ≤ highest
-/// Checked by tests/reduce/certificate/band_errors_test.cpp
+/// Checked by tests/reduce/certificate/certify_test.cpp
 BandErrors calc_band_errors(const InterfaceResidual& residual, double highest, double cutoff);
 
 }  // namespace sprung::reduce

@@ -72,11 +72,12 @@ TEST_CASE("A run file is read as it is written, its paths relative to its folder
   CHECK(run.integrator.options.method == dynamics::SteppingMethod::kBdf);
   CHECK(run.integrator.options.relative_tolerance == 1e-8);
   CHECK(run.integrator.largest_step == 0.01);
-  CHECK(dynamics::make_road(run)->height(2.0) == 0.2);
+  CHECK(dynamics::make_road(run.road)->height(2.0) == 0.2);
   const dynamics::Vehicle cart = test::read_cart(test::cart_text());
   const dynamics::ModeSelection selection = dynamics::resolve_modes(run, cart);
   CHECK(selection.at("frame") == std::vector<int>{1, 2});
-  CHECK(dynamics::resolve_modal_damping(run, selection, cart).at("frame") == std::vector<double>{0.05});
+  CHECK(dynamics::resolve_modal_damping(run.modal_damping, selection, cart).at("frame") ==
+        std::vector<double>{0.05});
   CHECK(dynamics::resolve_output_points(run, cart) == std::vector<std::string>{"arm.tip", "frame.top"});
 }
 
@@ -91,7 +92,7 @@ TEST_CASE("Only vehicle and duration are needed") {
   CHECK_FALSE(run.integrator.names_method);
   CHECK(run.integrator.options.relative_tolerance == 1e-6);
   CHECK(run.integrator.largest_step == std::numeric_limits<double>::infinity());
-  CHECK(dynamics::make_road(run)->height(2.0) == 0.0);
+  CHECK(dynamics::make_road(run.road)->height(2.0) == 0.0);
   const dynamics::Vehicle cart = test::read_cart(test::cart_text());
   CHECK(dynamics::resolve_modes(run, cart).empty());
   CHECK(dynamics::resolve_output_points(run, cart) == std::vector<std::string>{"frame.seat", "arm.tip"});

@@ -40,7 +40,7 @@ dynamics::Vehicle read_truck() {
 struct TruckAtStart {
   dynamics::Vehicle vehicle = read_truck();
   dynamics::Run run = dynamics::read_run(support::TomlDocument::read(SPRUNG_MODELS "/truck/bump.toml"));
-  std::unique_ptr<dynamics::Road> road = dynamics::make_road(run);
+  std::unique_ptr<dynamics::Road> road = dynamics::make_road(run.road);
   dynamics::Model model =
       dynamics::make_model(vehicle, {}, {.road = road.get(), .direction = vehicle.direction, .origin = -1.5});
   dynamics::SystemTerms terms{model};

@@ -158,32 +158,6 @@ TEST_CASE("A flexible frame on two wheels", "[analysis]") {
     CHECK(std::abs(delays[1 - first] - std::polar(1.0, -wave.frequency * std::abs(ahead) / 9.0)) < 1e-12);
   }
 
-  SECTION("the frame's rigid motion and the contributions of its modes add up to the motion of a point") {
-    LinearOutputs outputs = dynamics::make_point_outputs(vehicle, frame.tip);
-    const LinearOutputs shares = dynamics::make_mode_share_outputs(vehicle, frame.tip);
-    REQUIRE(shares.size() == 6 * 4);
-    CHECK(shares.names[6] == "points/frame.point/mode 2/displacement.x");
-    const MatrixXcd total = dynamics::calc_transfer(vehicle, outputs, wave);
-    const MatrixXcd of_modes = dynamics::calc_transfer(vehicle, shares, wave);
-    // Rigid: R and θ of the frame carry the point as it stands.
-    const MatrixXcd q =
-        vehicle.system().directions * vehicle.calc_motion(wave.frequency, vehicle.calc_road_action(wave));
-    const Eigen::Vector2d r = vehicle.equations().terms().markers()[static_cast<std::size_t>(frame.tip)].r -
-                              equilibrium.q.head<2>();
-    const double scale = total.topRows(3).norm(), squared = wave.frequency * wave.frequency;
-    for (Eigen::Index i = 0; i < 2; ++i) {
-      const Eigen::Vector3cd rigid(q(0, i) - r.y() * q(2, i), q(1, i) + r.x() * q(2, i), q(2, i));
-      Eigen::Vector3cd displacement = rigid, acceleration = -squared * rigid;
-      for (int k = 0; k < 4; ++k) {
-        displacement += of_modes.block<3, 1>(6 * k, i);
-        acceleration += of_modes.block<3, 1>(6 * k + 3, i);
-      }
-      CHECK((displacement - total.block<3, 1>(0, i)).norm() < 1e-12 * scale);
-      CHECK((acceleration - total.block<3, 1>(6, i)).norm() < 1e-12 * squared * scale);
-      CHECK((rigid - total.block<3, 1>(0, i)).norm() > 1e-3 * scale);
-    }
-  }
-
   SECTION("joint and spring move the arm: the outputs satisfy Newton's law") {
     LinearOutputs outputs = dynamics::make_reaction_outputs(vehicle);
     outputs.append(dynamics::make_force_outputs(vehicle));

@@ -25,7 +25,7 @@ class Warnings(DynamicsTestCase):
 
     def read_warnings(self):
         with open_results(self.results) as results:
-            return [one._asdict() for one in read_warnings(results)]
+            return [one._asdict() for one in read_warnings(results.file)]
 
     def test_missing_modes_are_said_of_the_points_of_their_body(self):
         # Over the bump the third mode, left out, would carry much of the acceleration.

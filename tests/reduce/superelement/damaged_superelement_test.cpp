@@ -128,9 +128,11 @@ TEST_CASE("files that are no superelement are refused with what they are") {
 TEST_CASE("a file cut off anywhere or with a damaged byte is refused") {
   write_superelement(make_two_armed_body(), "whole.h5");
   const std::string bytes = read_bytes("whole.h5");
-  for (int tenth = 1; tenth < 10; ++tenth) {
-    std::ofstream("cut.h5", std::ios::binary)
-        << bytes.substr(0, bytes.size() * static_cast<std::size_t>(tenth) / 10);
+  constexpr std::size_t kCuts = 200;
+  for (std::size_t cut = 1; cut <= kCuts; ++cut) {
+    const std::size_t rest = cut < kCuts ? bytes.size() * cut / kCuts : bytes.size() - 1;
+    INFO("the first " << rest << " bytes of " << bytes.size());
+    std::ofstream("cut.h5", std::ios::binary) << bytes.substr(0, rest);
     CHECK_THAT(message_of<InputError>([] { read_superelement("cut.h5"); }), Contains("cut.h5: error:"));
   }
   // A byte in the middle of the shapes' values: their checksum names the dataset.
