@@ -41,5 +41,4 @@ struct ResponseResult {
 ResponseResult calc_response_result(const Run& run, const Vehicle& vehicle, const LinearVehicle& linear,
                                     const LinearOutputs& outputs);
 
-
 }  // namespace sprung::dynamics

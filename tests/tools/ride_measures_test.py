@@ -28,7 +28,7 @@ from sprung_tools.runs.ride_measures import (
     read_window,
 )
 from sprung_tools.runs.section_stress import FROM_LOADS
-from sprung_tools.signals.ride_weighting import calc_wk
+from sprung_tools.signals.ride_weighting import WK, calc_weighting
 
 WINDOW = (1.0, 3.0)
 
@@ -59,7 +59,7 @@ class RideMeasures(ToolTestCase):
 
     def test_comfort_of_a_sine_is_its_weighted_amplitude(self):
         comfort = calc_comfort(self.open(), "points/body.seat", WINDOW)
-        weighted = SEAT_AMPLITUDE * abs(calc_wk(SEAT_FREQUENCY))
+        weighted = SEAT_AMPLITUDE * abs(calc_weighting(WK, SEAT_FREQUENCY))
         self.assertAlmostEqual(comfort.rms, SEAT_AMPLITUDE / np.sqrt(2.0), delta=1e-3)
         self.assertAlmostEqual(comfort.peak, SEAT_AMPLITUDE, places=9)
         self.assertAlmostEqual(comfort.weighted_rms, weighted / np.sqrt(2.0), delta=5e-3)

@@ -114,6 +114,9 @@ void ExponentialIntegrator::update_pairs() {
   if (remains) coordinates_.to_state_change(vibration_error_.at_end(), error_change_);
   coordinates_.update(small_motion_, system_.elastic_freedoms(), y_);
   coordinates_.to_pair_change(error_change_, error_pairs_);
+  // Other coordinates do not add to an error. Nearly parallel pairs would, time and again.
+  const double size = vibration_error_.at_end().norm(), changed = error_pairs_.norm();
+  if (changed > size) error_pairs_ *= size / changed;
   vibration_error_.set_at_end(error_pairs_);
 }
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from sprung_tools.cli.arguments import add_span_arguments
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.results_file import open_results
 from sprung_tools.files.whole_file import check_output, write_whole
@@ -36,8 +37,7 @@ def main() -> int:
         "--show", metavar="[LABEL=]QUANTITY", action="append", required=True,
         help="a quantity such as bodies/chassis/displacement.y, and its heading; may be given several times",
     )  # fmt: skip
-    parser.add_argument("--from", dest="start", type=float, metavar="S", help="begin at this time, s")
-    parser.add_argument("--to", dest="end", type=float, metavar="S", help="end at this time, s")
+    add_span_arguments(parser)
     arguments = parser.parse_args()
 
     with open_results(arguments.file) as results:

@@ -11,6 +11,7 @@ import math
 import os
 from pathlib import Path
 
+from sprung_tools.cli.arguments import add_span_arguments
 from sprung_tools.files.errors import InputError, WrongFormatError
 from sprung_tools.files.hdf5_file import RESULTS, SUPERELEMENT, open_hdf5
 from sprung_tools.paraview.collection import write_folder
@@ -65,8 +66,7 @@ def main() -> int:
     parser.add_argument(
         "--every", metavar="S", type=float, help="time between the instants of a run, s (default: all samples)"
     )
-    parser.add_argument("--from", dest="start", type=float, metavar="S", help="begin at this time, s")
-    parser.add_argument("--to", dest="end", type=float, metavar="S", help="end at this time, s")
+    add_span_arguments(parser)
     arguments = parser.parse_args()
     arguments.is_run = find_format(arguments.file)
     check_arguments(arguments)

@@ -7,7 +7,7 @@ from pathlib import Path
 from sprung_tools.files.whole_file import check_output, write_whole
 from sprung_tools.report.page import LARGEST, make_small_page
 from sprung_tools.report.summary import read_checks
-from sprung_tools.runs.labelled_runs import open_runs, shown_quantities
+from sprung_tools.runs.labelled_runs import open_runs, runs_with, shown_quantities
 from sprung_tools.terminal.program import make_parser
 
 
@@ -32,8 +32,7 @@ def main() -> int:
     check_output(arguments.output, [run.results.path for run in runs])
     extra = shown_quantities(arguments.show)
     for shown in extra:
-        if not any(run.results.has(shown.quantity) for run in runs):
-            runs[0].results.series(shown.quantity)  # throws an InputError that names what the file holds
+        runs_with(runs, shown)
     title = arguments.title or runs[0].results.title
     checks = read_checks(arguments.superelements, runs)
     page = make_small_page(title, runs, extra, checks)

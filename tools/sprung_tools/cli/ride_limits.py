@@ -97,7 +97,7 @@ def describe_root(root: Root, low: float, high: float, unit: str) -> str:
     """Why there is no root, in words; empty if there is one."""
     if root.problem:
         return root.problem
-    return {"": "", "below": f"already at {low:g} {unit}", "above": f"not up to {high:g} {unit}"}[root.side]
+    return {"": "", BELOW: f"already at {low:g} {unit}", ABOVE: f"not up to {high:g} {unit}"}[root.side]
 
 
 def describe_height(one: Found) -> str:

@@ -78,7 +78,7 @@ def read_section(card: Card) -> Section:
         return read_shaped_section(card, text, material)
     if card.name == "PTUBE":
         diameter, wall = card.real(2, "diameter"), card.real(3, "wall")
-        shape = make_shape(card, make_tube, [diameter / 2.0, max(diameter / 2.0 - wall, 0.0) if wall else 0.0])
+        shape = make_shape(make_tube, [diameter / 2.0, max(diameter / 2.0 - wall, 0.0) if wall else 0.0])
         other = card.real(5, "diameter") if card.field(5) else diameter
         taper = (f"its taper to the diameter {other:g}: the section at end A is taken",) if other != diameter else ()
         return Section(text, material, shape, False, card.real(4, "mass per length"), taper)
@@ -104,7 +104,7 @@ def make_general(card: Card, area: float, moments: Sequence[float]) -> Shape | N
     return Shape(area, first, second, -product) if area > 0.0 else None
 
 
-def make_shape(card: Card, make: Callable[..., Shape], dimensions: Sequence[float]) -> Shape | None:
+def make_shape(make: Callable[..., Shape], dimensions: Sequence[float]) -> Shape | None:
     """A shape from its dimensions; None where these make none."""
     try:
         return make(*dimensions)
@@ -120,7 +120,7 @@ def read_shaped_section(card: Card, text: str, material: str) -> Section:
     text = f"{text}, {kind} {' × '.join(f'{one:g}' for one in dimensions)}".strip()
     if make is None:
         return Section(text, material, None, left_out=(f"the shape {kind}, and the mass per length behind it",))
-    shape = make_shape(card, make, dimensions)
+    shape = make_shape(make, dimensions)
     rest = [one for one in card.fields[8 + count + 1 :] if one]
     left_out = ("its further stations: the section at end A is taken",) if card.name == "PBEAML" and rest else ()
     unequal = any(dimensions[a] != dimensions[b] for a, b in EQUAL_DIMENSIONS.get(kind, ()))

@@ -8,7 +8,6 @@ from sprung_tools.paper_report.run_numbers import MIDDLE, SEAT, Numbers
 from sprung_tools.plots.mode_choice_picture import make_choice_figure, open_choice
 from sprung_tools.plots.mode_history_picture import make_mode_history_figure
 from sprung_tools.runs.labelled_runs import Run, Shown
-from sprung_tools.signals.spans import OptionalSpan
 
 TITLES = {"bump": "the bump", "terrain": "the terrain"}
 SHOWN = [Shown(f"{name}'s acceleration", f"{p}/acceleration.y") for name, p in (("middle", MIDDLE), ("seat", SEAT))]
@@ -22,12 +21,12 @@ def draw_choice(numbers: Numbers) -> Figure:
     )
 
 
-def draw_modes_over_time(numbers: Numbers, road: str, span: OptionalSpan = (None, None)) -> Figure:
+def draw_modes_over_time(numbers: Numbers, road: str) -> Figure:
     """Draws which modes took part in an adaptive run, above its acceleration and that with all modes."""
     names = {"adaptive": f"{road}_adaptive", f"all {ALL} modes": f"{road}_{name_modes(ALL)}"}
     runs = [Run(label, numbers.run(name).results) for label, name in names.items()]
     return make_mode_history_figure(
-        runs, SHOWN, span, f"Modes that take part over {TITLES[road]}, from 2 with {ALL} available"
+        runs, SHOWN, (None, None), f"Modes that take part over {TITLES[road]}, from 2 with {ALL} available"
     )
 
 

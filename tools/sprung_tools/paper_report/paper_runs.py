@@ -4,7 +4,6 @@ Every run is one of the two run files under dynamics/models/truck with `--set`; 
 """
 
 import tomllib
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -84,11 +83,11 @@ def list_main_runs() -> list[PaperRun]:
     ]
 
 
-def list_convergence_runs(counts: Iterable[int] = MODE_COUNTS) -> list[PaperRun]:
+def list_convergence_runs() -> list[PaperRun]:
     """Runs over both roads with the numbers of modes that the paper's cases do not have."""
     return [
         PaperRun(f"{run}_{name_modes(n)}", f"{run}.toml", chassis_modes(n))
-        for n in counts
+        for n in MODE_COUNTS
         if n not in (0, 2, 4)
         for run in ROADS
     ]

@@ -122,9 +122,7 @@ def measure_processor_time(command: Sequence[str | Path]) -> float:
     return usage.ru_utime + usage.ru_stime
 
 
-def measure_costs(
-    programs: Programs, folder: Path, runs: Sequence[PaperRun], repeats: int = REPEATS, report: Printer = print
-) -> dict[str, float]:
+def measure_costs(programs: Programs, folder: Path, runs: Sequence[PaperRun], report: Printer) -> dict[str, float]:
     """Measures the processor times of runs: run name → median [s]. If several runs have one name, the first is
     measured.
 
@@ -133,8 +131,8 @@ def measure_costs(
     """
     named = {run.name: run for run in reversed(runs)}
     times: dict[str, list[float]] = {name: [] for run_name in named for name in (run_name, name_start(run_name))}
-    for turn in range(repeats):
-        report(f"timing, round {turn + 1} of {repeats}")
+    for turn in range(REPEATS):
+        report(f"timing, round {turn + 1} of {REPEATS}")
         for name, run in named.items():
             command = make_command(programs, run, folder)
             times[name].append(measure_processor_time(command))

@@ -17,6 +17,7 @@ from sprung_tools.signals.spans import find_spans
 
 UNMARKED = ("origin", "center_of_mass")  # points that every body has
 MOST_SEEN = 400  # samples from which the view of a mechanism is chosen
+MOST_ROAD_POINTS = 20000
 
 
 def list_unknown(results: ResultsFile, bodies: Sequence[DrawnBody]) -> list[str]:
@@ -99,13 +100,13 @@ def pack_vehicle(results: ResultsFile, bodies: Sequence[DrawnBody], wheels: Sequ
     }  # fmt: skip
 
 
-def pack_road(results: ResultsFile, most: int = 20000) -> Packed | None:
+def pack_road(results: ResultsFile) -> Packed | None:
     """The road as (x, height), thinned like the histories, and the direction in which distance is counted; None without
     a road."""
     road = read_road(results)
     if road is None:
         return None
     x, height = road
-    kept = find_kept(height, most)
+    kept = find_kept(height, MOST_ROAD_POINTS)
     origin, direction = (read_real(results.file, "model/road", name) for name in ("origin", "direction"))
     return {"x": encode(x[kept]), "h": encode(height[kept]), "direction": direction, "origin": origin}

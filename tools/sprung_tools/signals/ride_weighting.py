@@ -66,11 +66,6 @@ def calc_weighting(weighting: Weighting, frequency: Floats) -> ComplexNumbers:
     return response
 
 
-def calc_wk(frequency: Floats) -> ComplexNumbers:
-    """The complex response of Wk at frequencies f ≥ 0 [Hz]."""
-    return calc_weighting(WK, frequency)
-
-
 def weight_acceleration(acceleration: Floats, step: float, weighting: Weighting = WK) -> Floats:
     """The weighted acceleration a_w [n], m/s² or rad/s², of an acceleration [n] that was 0 before the record began.
 

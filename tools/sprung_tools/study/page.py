@@ -37,7 +37,7 @@ def pack_study(
 ) -> dict[str, Any]:  # fmt: skip
     """The data of the page."""
     parameters = [
-        {"name": one.name, "keys": one.keys, **pack_values([point[number] for point in finished.points])}
+        {"name": one.name, **pack_values([point[number] for point in finished.points])}
         for number, one in enumerate(finished.study.parameters)
     ]
     measures = [{"name": one.name, "unit": one.unit, "values": pack_numbers(one.values)} for one in columns]

@@ -35,7 +35,7 @@ function readable(unit, peak) {
 function format(value, digits = 4) {
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-3) return value.toExponential(Math.max(digits - 3, 1)).replace("-", "−").replace("e−", "e−");
+  if (size >= 1e6 || size < 1e-3) return value.toExponential(Math.max(digits - 3, 1)).replaceAll("-", "−");
   const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
   return value.toFixed(Number.isInteger(value) ? 0 : Math.min(decimals, 6)).replace("-", "−");
 }
