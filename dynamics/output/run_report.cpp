@@ -170,7 +170,7 @@ std::string format_summary(const RunSummary& summary) {
                      points.str(), format_sections(summary.statistics.sections()), run.str(), warnings);
 }
 
-Json make_summary_json(const Model& model, const RunSummary& summary) {
+Json make_summary_json(const RunSummary& summary) {
   Json modes = Json::object();
   if (summary.adaptivity) {
     const WorstNeglect& worst = summary.transient.worst_neglect;
@@ -201,8 +201,7 @@ Json make_summary_json(const Model& model, const RunSummary& summary) {
                             {"axial_effect", body.axial_effect()}};
   }
   const TransientStatistics& transient = summary.transient;
-  Json report{{"freedoms", model.num_mechanical_freedoms()},
-              {"points", points},
+  Json report{{"points", points},
               {"bending", bending},
               {"sections", make_sections_json(summary.statistics.sections())},
               {"certified", describe_certified(summary.statistics.certified())},

@@ -42,6 +42,6 @@ struct RunSummary {
 /// The summary as text tables, with the warnings that do not concern the computation as a whole.
 std::string format_summary(const RunSummary& summary);
 /// The summary as one JSON object, SI units, without its warnings.
-support::Json make_summary_json(const Model& model, const RunSummary& summary);
+support::Json make_summary_json(const RunSummary& summary);
 
 }  // namespace sprung::dynamics

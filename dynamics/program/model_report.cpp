@@ -137,6 +137,26 @@ std::string format_model(const PreparedRun& prepared, const StoragePlan& storage
   return text;
 }
 
+Json make_start_json(const PreparedRun& prepared) {
+  Json start = Json::object();
+  if (prepared.assembly.largest_movement > 0.0)
+    start["moved"] = {{"point", prepared.assembly.moved_marker}, {"by", prepared.assembly.largest_movement}};
+  if (prepared.initial_velocities.largest_change > 0.0) {
+    start["changed_velocity"] = {{"coordinate", prepared.initial_velocities.coordinate},
+                                 {"by", prepared.initial_velocities.largest_change}};
+  }
+  if (prepared.equilibrium) {
+    start["balance"] = {{"stable", prepared.equilibrium->stable},
+                        {"iterations", prepared.equilibrium->iterations},
+                        {"last_step", prepared.equilibrium->last_step},
+                        {"neutral", prepared.equilibrium->describe_neutral()}};
+  }
+  return {{"coordinates", prepared.model.first_state()},
+          {"constraints", prepared.model.num_constraints},
+          {"freedoms", prepared.model.num_mechanical_freedoms()},
+          {"start", start}};
+}
+
 Json make_model_json(const PreparedRun& prepared, const StoragePlan& storage) {
   const Model& model = prepared.model;
   Json bodies = Json::object(), joints = Json::object(), forces = Json::object();
@@ -147,13 +167,9 @@ Json make_model_json(const PreparedRun& prepared, const StoragePlan& storage) {
     joints[joint->name] = {{"type", joint->kind()}, {"holds", held_directions(*joint)}};
   }
   for (const auto& force : model.forces) forces[force->name] = {{"type", force->kind()}};
-  Json report{{"bodies", bodies},
-              {"joints", joints},
-              {"forces", forces},
-              {"coordinates", model.first_state()},
-              {"constraints", model.num_constraints},
-              {"freedoms", model.num_mechanical_freedoms()},
-              {"storage", make_storage_json(storage)}};
+  Json report{
+      {"bodies", bodies}, {"joints", joints}, {"forces", forces}, {"storage", make_storage_json(storage)}};
+  report.update(make_start_json(prepared));
   if (prepared.equilibrium) {
     Json places = Json::object();
     for (const Body& body : model.bodies) {

@@ -15,6 +15,9 @@ namespace sprung::dynamics {
 /// constraints, force elements, freedoms, the equilibrium at the start, and the size of the results.
 /// @param storage  what a results file would hold
 std::string format_model(const PreparedRun& prepared, const StoragePlan& storage);
+/// How many coordinates, constraints and freedoms there are, and how the run begins: what assembly moved and
+/// what joints changed of the velocities the most, and the balance.
+support::Json make_start_json(const PreparedRun& prepared);
 /// The model as one JSON object, SI units.
 support::Json make_model_json(const PreparedRun& prepared, const StoragePlan& storage);
 

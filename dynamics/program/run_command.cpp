@@ -349,10 +349,11 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const RunSummary summary{
       run,   statistics, transient, run.duration - prepared.start.time,
       times, adaptivity, warnings,  written.writer ? &written.writer->storage() : nullptr};
-  support::print(streams.out, "{}",
-                 output.json ? format_report_json(request, "run", prepared, warnings,
-                                                  make_summary_json(prepared.model, summary))
-                             : format_summary(summary));
+  support::Json report = make_start_json(prepared);
+  report.update(make_summary_json(summary));
+  support::print(
+      streams.out, "{}",
+      output.json ? format_report_json(request, "run", prepared, warnings, report) : format_summary(summary));
   if (written.writer && !output.json) support::print(streams.out, "Results: {}\n", output.results.string());
   return is_converged(warnings) ? support::kGood : support::kCheckFailed;
 }

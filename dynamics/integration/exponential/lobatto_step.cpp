@@ -103,7 +103,7 @@ void LobattoPropagator::carry_error(const PairBlocks& blocks, double share,
   const Eigen::Index f = blocks.size();
   for (Eigen::Index m = 0; m < f; ++m) {
     const double trace = blocks.trace(m), determinant = blocks.determinant(m);
-    if (!(determinant > 0.0)) {
+    if (!(4.0 * determinant > trace * trace)) {  // it does not vibrate
       u[m] = u[f + m] = 0.0;
       continue;
     }

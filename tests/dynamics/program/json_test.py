@@ -91,9 +91,12 @@ class JsonOfCommands(DynamicsTestCase):
             vehicle.replace("free_length = 0.458", static, 1) + AIR_SPRING, encoding="utf-8")  # fmt: skip
         of_all = ("bump.toml", "--set", 'vehicle="static.toml"', "--set", 'modes.chassis="auto"', "--set",
                   "mode_choice.tolerance=0.2", "--set", "vehicle.bodies.front_axle.inertia=1e7", *ROAD)  # fmt: skip
+        turned = ("--set", "initial.sprung.angular_velocity=0.1")  # which its slide does not allow
         runs = {
-            "run": [("bump.toml", *short, "-o", "r.h5", "--set", "output.size=0.01"), (QUARTER_CAR, *short[:2])],
-            "run --dry-run": [(QUARTER_CAR, "--set", "output.size=0.01")],
+            "run": [("bump.toml", *short, "-o", "r.h5", "--set", "output.size=0.01"), (QUARTER_CAR, *short[:2]),
+                    (QUARTER_CAR, *short[:2], *turned)],
+            "run --dry-run": [(QUARTER_CAR, "--set", "output.size=0.01"), (QUARTER_CAR, *turned),
+                              ("bump.toml", *short)],
             "equilibrium": [("bump.toml", *short), (QUARTER_CAR,)],
             "modes": [("bump.toml", *short), ("bump.toml", "--bracket", "--set", 'modes.chassis="certified"')],
             "response": [("bump.toml", "--set", "response.road.class=C"), (QUARTER_CAR,)],
