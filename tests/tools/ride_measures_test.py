@@ -287,6 +287,10 @@ class Tool(ToolTestCase):
         rows = {line.split()[0]: line.split() for line in printed.splitlines() if line}
         self.assertEqual(rows["body.seat"][2:], ["0"] * 10)
         self.assertEqual([rows["link"][2], rows["link"][4]], ["0.0", "0.0"])
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            file["forces/link/deflection"][:] = 0.06 + 1e-15 * np.sin(np.arange(file["time"].size))
+        with open_results(self.folder / "a.h5") as results:
+            self.assertEqual(calc_travel(results, "link", WINDOW)[:2], (0.0, 0.0))
 
     def test_missing_quantities_are_refused(self):
         write_ride_results(self.folder / "a.h5")

@@ -17,7 +17,7 @@ from sprung_tools.model.force_channels import (
 )
 from sprung_tools.model.resolved_model import read_elements, read_settings
 from sprung_tools.runs.labelled_runs import samples_between
-from sprung_tools.runs.rounding import read_acceleration
+from sprung_tools.runs.rounding import clear_each, read_acceleration
 from sprung_tools.signals.ride_weighting import HIGHEST, SAMPLES_PER_PERIOD, calc_dose, weight_acceleration
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
@@ -148,9 +148,11 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
     deflection = deflection[inside]
     struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
     hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
+    # The lengths whose difference the deflection is are some times as long.
+    travel = clear_each(deflection - (static or 0.0), 10.0 * float(np.max(np.abs(deflection))))
     return Travel(
-        None if static is None else float(deflection.max() - static),
-        None if static is None else float(deflection.min() - static),
+        None if static is None else float(travel.max()),
+        None if static is None else float(travel.min()),
         None if stop is None or static is None else stop - static,
         None if stop is None else hits,
         float(np.count_nonzero(struck) * sampling_step(results)),
