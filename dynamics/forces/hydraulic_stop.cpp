@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/forces/marker_line.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -16,11 +18,8 @@ constexpr double kUsualRate = 1.0;             // m/s
 
 }  // namespace
 
-struct HydraulicStop::Line {
-  Eigen::Vector2d direction;  // from a to b
-  double length;
-  double overlap;  // δ
-  double rate;     // δ̇
+struct HydraulicStop::Line : MarkerLine {
+  double overlap;  // δ; its rate is that of the line
 };
 
 struct HydraulicStop::Law {
@@ -38,16 +37,9 @@ HydraulicStop::HydraulicStop(std::string element_name, Parameters parameters)
 }
 
 HydraulicStop::Line HydraulicStop::calc_line(const Instant& instant) const {
-  const MarkerState& a = instant.markers[static_cast<std::size_t>(parameters_.marker_a)];
-  const MarkerState& b = instant.markers[static_cast<std::size_t>(parameters_.marker_b)];
-  const Eigen::Vector2d span = b.r - a.r;
-  Line line;
-  line.length = span.norm();
-  // Between markers at one place there is no direction; then there is no force either.
-  line.direction = line.length > 0.0 ? Eigen::Vector2d(span / line.length) : Eigen::Vector2d::Zero();
-  line.overlap = parameters_.contact_length - line.length;
-  line.rate = -line.direction.dot(b.v - a.v);
-  return line;
+  const MarkerLine line = calc_marker_line(instant.markers[static_cast<std::size_t>(parameters_.marker_a)],
+                                           instant.markers[static_cast<std::size_t>(parameters_.marker_b)]);
+  return {line, parameters_.contact_length - line.length};
 }
 
 HydraulicStop::Law HydraulicStop::calc_law(const Line& line, std::span<const int> branches) const {

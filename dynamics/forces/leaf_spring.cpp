@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dynamics/forces/friction_loop.h"
+#include "dynamics/forces/marker_line.h"
 
 namespace sprung::dynamics {
 
@@ -29,11 +30,8 @@ double find_largest(const PiecewisePolynomial& friction) {
 
 }  // namespace
 
-struct LeafSpring::Line {
-  Eigen::Vector2d direction;  // from a to b
-  double length;
+struct LeafSpring::Line : MarkerLine {
   double deflection;
-  double rate;   // ḋ
   double share;  // friction, of its full value: p
 };
 
@@ -44,17 +42,9 @@ LeafSpring::LeafSpring(std::string element_name, Parameters parameters)
                             parameters_.presliding_deflection)) {}
 
 LeafSpring::Line LeafSpring::calc_line(const Instant& instant) const {
-  const MarkerState& a = instant.markers[static_cast<std::size_t>(parameters_.marker_a)];
-  const MarkerState& b = instant.markers[static_cast<std::size_t>(parameters_.marker_b)];
-  const Eigen::Vector2d span = b.r - a.r;
-  Line line;
-  line.length = span.norm();
-  // Between markers at one place there is no direction; then there is no force either.
-  line.direction = line.length > 0.0 ? Eigen::Vector2d(span / line.length) : Eigen::Vector2d::Zero();
-  line.deflection = parameters_.free_length - line.length;
-  line.rate = -line.direction.dot(b.v - a.v);
-  line.share = instant.states[0] / full_state_;
-  return line;
+  const MarkerLine line = calc_marker_line(instant.markers[static_cast<std::size_t>(parameters_.marker_a)],
+                                           instant.markers[static_cast<std::size_t>(parameters_.marker_b)]);
+  return {line, parameters_.free_length - line.length, instant.states[0] / full_state_};
 }
 
 // d/dt of the energy stored by friction, ½ β N F_c p², is its power less what is dissipated.

@@ -2,26 +2,18 @@
 
 #include <array>
 
+#include "dynamics/forces/marker_line.h"
+
 namespace sprung::dynamics {
 
-struct SpringDamper::Line {
-  Eigen::Vector2d direction;  // from a to b
-  double length;
+struct SpringDamper::Line : MarkerLine {
   double deflection;
-  double rate;  // ḋ
 };
 
 SpringDamper::Line SpringDamper::calc_line(const Instant& instant) const {
-  const MarkerState& a = instant.markers[static_cast<std::size_t>(parameters_.marker_a)];
-  const MarkerState& b = instant.markers[static_cast<std::size_t>(parameters_.marker_b)];
-  const Eigen::Vector2d span = b.r - a.r;
-  Line line;
-  line.length = span.norm();
-  // Between markers at one place there is no direction; then there is no force either.
-  line.direction = line.length > 0.0 ? Eigen::Vector2d(span / line.length) : Eigen::Vector2d::Zero();
-  line.deflection = parameters_.free_length - line.length;
-  line.rate = -line.direction.dot(b.v - a.v);
-  return line;
+  const MarkerLine line = calc_marker_line(instant.markers[static_cast<std::size_t>(parameters_.marker_a)],
+                                           instant.markers[static_cast<std::size_t>(parameters_.marker_b)]);
+  return {line, parameters_.free_length - line.length};
 }
 
 Power SpringDamper::add_wrenches(const Instant& instant, std::span<const int> branches,

@@ -5,15 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/support/dense/join_columns.h"
+
 namespace sprung::dynamics {
 
 namespace {
-
-Eigen::MatrixXd append_columns(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
-  Eigen::MatrixXd joined(left.rows(), left.cols() + right.cols());
-  joined << left, right;
-  return joined;
-}
 
 // The matrix with `side` to its right, ± its transpose below and `corner` in the corner.
 Eigen::MatrixXd border(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& side, double sign,
@@ -90,9 +86,9 @@ void add_soft_modes(Body& body, const reduce::Superelement& superelement) {
   const Eigen::MatrixXd of_rotations = carried.row(2).transpose() * radial;
   body.B = border(body.B, -turned_momenta.transpose() * carried - rotations.transpose() * radial, -1.0,
                   carried.transpose() * turned_rigid * carried - of_rotations + of_rotations.transpose());
-  body.P = append_columns(body.P, rigid.topRows(2) * carried);
-  body.c = append_columns(body.c, rigid.row(2) * carried).row(0);
-  body.d = append_columns(body.d, body.first_moment.transpose() * carried.topRows(2) + radial).row(0);
+  body.P = support::join_columns(body.P, rigid.topRows(2) * carried);
+  body.c = support::join_columns(body.c, rigid.row(2) * carried).row(0);
+  body.d = support::join_columns(body.d, body.first_moment.transpose() * carried.topRows(2) + radial).row(0);
   const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(n, q);
   body.stiffness =
       border(body.stiffness, nothing, 1.0, calc_soft_stiffness(certificate).at_rest.asDiagonal());
@@ -101,7 +97,7 @@ void add_soft_modes(Body& body, const reduce::Superelement& superelement) {
   body.modal_mass.tail(q).setOnes();
   body.mode_scale.conservativeResize(n + q);
   body.mode_scale.tail(q) =
-      append_columns(certificate.soft_loads, carried.transpose()).cwiseAbs().rowwise().maxCoeff();
+      support::join_columns(certificate.soft_loads, carried.transpose()).cwiseAbs().rowwise().maxCoeff();
   for (int k = 1; k <= q; ++k) body.mode_numbers.push_back(superelement.num_modes() + k);
 }
 

@@ -8,6 +8,7 @@
 
 #include "dynamics/bodies/body_equations.h"
 #include "dynamics/input/uncovered_loads.h"
+#include "tools/support/dense/join_columns.h"
 #include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
@@ -42,12 +43,6 @@ const reduce::Certificate& require_bound(const BodyDescription& description, con
 // S r φ of a row of rotations φ: the displacement of a point at r that turns with them, 2×q.
 Eigen::MatrixXd turned_rows(const Eigen::Vector2d& r, const Eigen::RowVectorXd& rotations) {
   return turned(r) * rotations;
-}
-
-Eigen::MatrixXd join_columns(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
-  Eigen::MatrixXd joined(left.rows(), left.cols() + right.cols());
-  joined << left, right;
-  return joined;
 }
 
 // Shapes of the soft modes at a point of a body that has them, in the body's frame, 3×q.
@@ -106,7 +101,8 @@ SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (points[i].body != static_cast<int>(b)) continue;
       Marker& marker = twin.model.markers[i];
-      marker.Phi = join_columns(marker.Phi, calc_point_shapes(points[i], superelement, of_reference, body));
+      marker.Phi =
+          support::join_columns(marker.Phi, calc_point_shapes(points[i], superelement, of_reference, body));
     }
   }
   require_covered_loads(vehicle, model);

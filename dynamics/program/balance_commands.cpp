@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dynamics/input/soft_twin.h"
+#include "dynamics/linear/frequency_bounds.h"
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/balance_report.h"
 #include "dynamics/output/run_warnings.h"

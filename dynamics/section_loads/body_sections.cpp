@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tools/support/dense/dense_solvers.h"
+#include "tools/support/dense/join_columns.h"
 #include "tools/support/dense/wide_product.h"
 
 namespace sprung::dynamics {
@@ -11,12 +12,6 @@ namespace {
 
 constexpr double kLeastGravity =
     1.0;  // m/s², in the weight beside which moments are judged, also without gravity
-
-Eigen::MatrixXd join_columns(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
-  Eigen::MatrixXd joined(left.rows(), left.cols() + right.cols());
-  joined << left, right;
-  return joined;
-}
 
 }  // namespace
 
@@ -71,7 +66,7 @@ void BodySections::prepare_missing(const Body& body, const reduce::Superelement&
                      length / 12.0 * (by_load_.row(6 * e + 1) - by_load_.row(6 * e + 4));
     by_mode.row(e) = 0.5 * (by_mode_.row(6 * e + 2) + by_mode_.row(6 * e + 5));
   }
-  missing_moment_by_ = join_columns(by_load, -by_mode);
+  missing_moment_by_ = support::join_columns(by_load, -by_mode);
   delay_ = body.damping.diagonal().cwiseQuotient(body.stiffness.diagonal());
   if (body.stiffening) {
     amplitude_by_load_ =
@@ -90,7 +85,7 @@ void BodySections::prepare_missing(const Body& body, const reduce::Superelement&
     }
   }
   missing_deflection_by_ =
-      join_columns(combine(*superelement.point_deflections, columns), -deflection_by_mode_);
+      support::join_columns(combine(*superelement.point_deflections, columns), -deflection_by_mode_);
   deflections_ = missing_deflections_ = Eigen::Matrix3Xd::Zero(3, num_points);
 }
 
