@@ -34,7 +34,7 @@ std::vector<int> set_velocities(PartitionedEquations& equations, const Eigen::Ve
   Eigen::VectorXd v_independent = rate_independent;
   for (Eigen::Index k = 0; k < v_independent.size(); ++k) v_independent[k] += w[coordinate_of(equations, k)];
   equations.update_velocities(support::as_span(v_independent));
-  const std::vector<int> branches = equations.terms().find_branches();
+  std::vector<int> branches = equations.terms().find_branches();
   if (needed == Needed::kForces) {
     equations.update_forces(branches);
   } else {

@@ -267,6 +267,14 @@ class ReportPage(PageTestCase):
         )
         expected = ["chassis.origin", "chassis.seat", "chassis", "chassis.rear_end", "chassis.front_end"]
         self.assertEqual(marked, expected)
+        for section in ("spectra", "vehicle-modes"):  # both rest on modes about the equilibrium
+            texts = page.evaluate(
+                f"[...document.querySelectorAll('#{section} [data-warnings=equilibrium] li')]"
+                ".filter((one) => one.checkVisibility()).map((one) => one.textContent)"
+            )
+            self.assertEqual(len(texts), 2, texts)
+            for text in texts:
+                self.assertTrue(text.endswith("here front_tyre, rear_tyre left the ground"), text)
 
     def test_the_lowest_value_stands_beside_the_highest(self):
         page = self.open()
