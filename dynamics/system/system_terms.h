@@ -110,8 +110,9 @@ class SystemTerms {
   /// Says that ConstrainedEquations has found accelerations and multipliers from the present terms.
   void set_has_accelerations() { set(Term::kAccelerations); }
 
+  /// The branches of all force elements that hold at the present positions and velocities.
   void choose_branches(std::span<int> branches) const;
-  std::vector<int> find_branches() const;  ///< the same, of all force elements
+  std::vector<int> find_branches() const;  ///< the same
   /// Positions and velocities of all markers at the present q and v, whatever the scope.
   void update_all_markers();
   std::span<const MarkerState> markers() const {

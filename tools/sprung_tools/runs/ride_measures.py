@@ -148,7 +148,7 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
     deflection = deflection[inside]
     struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
     hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
-    # The lengths whose difference the deflection is are some times as long.
+    # A deflection is a difference of lengths that are some times as large, and has their rounding.
     travel = clear_each(deflection - (static or 0.0), 10.0 * float(np.max(np.abs(deflection))))
     return Travel(
         None if static is None else float(travel.max()),

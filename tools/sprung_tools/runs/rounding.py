@@ -15,7 +15,7 @@ def clear_rounding(values: Floats, size: float) -> Floats:
 
 
 def clear_each(values: Floats, size: float) -> Floats:
-    """Values that do not belong together, as extremes; zero where one is rounding of something of this size."""
+    """Values; each is zero that by itself is rounding of something of this size."""
     return np.where(np.abs(values) < ROUNDING * size, 0.0, values)
 
 
