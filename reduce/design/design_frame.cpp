@@ -120,7 +120,7 @@ void read_spring_line(const TomlTable& table, const std::vector<std::string>& po
   fem::FrameGeometry::Line line{.name = {},
                                 .from = read_point_name(from, point_names),
                                 .to = read_point_name(to, point_names),
-                                .section = name_spring_section(from.string(), to.string()),
+                                .section = name_spring_section(table),
                                 .num_elements = 1,
                                 .where = from.location()};
   line.name = fmt::format("{}: {} – {}", table.key(), line.from, line.to);
@@ -243,7 +243,7 @@ void add_spring_element(const TomlTable& spring, fem::Mesh& mesh) {
   mesh.elements.push_back({.first = find_named_node(mesh, from),
                            .second = find_named_node(mesh, to),
                            .section = static_cast<int>(mesh.section_names.size())});
-  mesh.section_names.push_back(name_spring_section(from.string(), to.string()));
+  mesh.section_names.push_back(name_spring_section(spring));
 }
 
 // A file that pulls in others would change without a sign of it: hashes are kept of the files a design names.

@@ -207,6 +207,14 @@ TomlTable find_section_table(const TomlTable& sections, const TomlValue& name) {
                                support::nearest_name_hint(name.string(), names)));
 }
 
+// The section of an element, made for a table. Its name may be that of no other.
+void add_section(const TomlTable& table, const std::string& name, const fem::BeamProperties& properties,
+                 Sections& sections) {
+  if (!sections.emplace(name, properties).second)
+    throw table.error(
+        fmt::format("has a section that is called '{}', as one under [sections]; rename that", name));
+}
+
 // The sections of a tapered line's elements, each that of its middle.
 void add_tapered_sections(const TomlTable& line, const TomlTable& tables, const Materials& materials,
                           const BeamTheory& theory, Sections& sections) {
@@ -218,8 +226,8 @@ void add_tapered_sections(const TomlTable& line, const TomlTable& tables, const 
   check_same_kind(ends, first, second);
   for (int element = 0; element < taper->num_elements; ++element) {
     const double share = (element + 0.5) / taper->num_elements;
-    sections.emplace(taper->section_name(element),
-                     calc_properties(SectionTable(first, second, share), materials, theory));
+    add_section(line, taper->section_name(element),
+                calc_properties(SectionTable(first, second, share), materials, theory), sections);
   }
 }
 
@@ -258,12 +266,12 @@ fem::BeamProperties read_spring(const TomlTable& root, const TomlTable& table) {
 
 }  // namespace
 
-std::string name_spring_section(const std::string& from, const std::string& to) {
-  return fmt::format("spring from {} to {}", from, to);
+std::string name_spring_section(const TomlTable& spring) {
+  return spring.key();
 }
 
 std::string TaperedLine::section_name(int element) const {
-  return fmt::format("{} to {}, element {} of {}", first, second, element + 1, num_elements);
+  return fmt::format("{}, element {} of {}", key, element + 1, num_elements);
 }
 
 std::optional<TaperedLine> find_taper(const TomlTable& line) {
@@ -276,8 +284,7 @@ std::optional<TaperedLine> find_taper(const TomlTable& line) {
   }
   if (line.has("through"))
     throw section->error("names two sections: a tapered line has 'from' and 'to' in place of 'through'");
-  return TaperedLine{.first = ends[0].string(),
-                     .second = ends[1].string(),
+  return TaperedLine{.key = line.key(),
                      .num_elements = static_cast<int>(line.at("elements").integer(1, kMostElements))};
 }
 
@@ -311,8 +318,7 @@ Sections read_sections(const TomlTable& root, const Materials& materials, const 
   if (const auto springs = root.find("springs")) {
     for (const TomlValue& item : springs->items()) {
       const TomlTable spring = item.table();
-      sections.emplace(name_spring_section(spring.at("from").string(), spring.at("to").string()),
-                       read_spring(root, spring));
+      add_section(spring, name_spring_section(spring), read_spring(root, spring), sections);
     }
   }
   return sections;

@@ -30,7 +30,7 @@ Materials read_materials(const support::TomlTable& root);
 /// A line whose section changes from its beginning to its end: each element has the section at its middle,
 /// with all numbers of the sections' tables interpolated linearly.
 struct TaperedLine {
-  std::string first, second;  ///< sections at the ends
+  std::string key;  ///< of its table
   int num_elements = 1;
   std::string section_name(int element) const;  ///< of a 0-based element
 };
@@ -41,8 +41,8 @@ inline constexpr int kMostElements = 100000;  ///< of a line
 /// @throws support::InputError if it names other than two sections, or is no straight line
 std::optional<TaperedLine> find_taper(const support::TomlTable& line);
 
-/// Name of the section that the element of a spring has.
-std::string name_spring_section(const std::string& from, const std::string& to);
+/// Name of the section that the element of a table of `[[springs]]` has: no other spring has it.
+std::string name_spring_section(const support::TomlTable& spring);
 
 /// Reads `[sections.NAME]` of a design: by shape or by area and second moment, times `count`; and makes the
 /// sections of tapered lines and of springs.

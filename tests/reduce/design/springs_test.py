@@ -61,6 +61,40 @@ class SpringsTest(ReduceTestCase):
         self.build("bars.toml", "--force")
         return h5py.File(self.folder / "out/bars.h5")
 
+    def test_two_springs_between_the_same_points_add_up(self):
+        """In a mesh file: lines are refused there."""
+        (self.folder / "bars.msh").write_text(
+            '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 1 "bar"\n$EndPhysicalNames\n'
+            "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1.1 0 0\n4 2.1 0 0\n$EndNodes\n"
+            "$Elements\n2\n1 1 2 1 5 1 2\n2 1 2 1 6 3 4\n$EndElements\n"
+        )
+        found = []
+        for stiffnesses in ((1e6,), (1e5, 9e5)):
+            springs = "".join(
+                f'[[springs]]\nfrom = "left"\nto = "right"\naxial_stiffness = {one}\n'
+                f"rotational_stiffness = {ROTATIONAL / len(stiffnesses)}\n"
+                for one in stiffnesses
+            )
+            (self.folder / "bars.toml").write_text(
+                f'mesh = "bars.msh"\n[materials.stuff]\nyoungs_modulus = {E}\n[sections.bar]\nmaterial = "stuff"\n'
+                f"area = {AREA}\nsecond_moment = {INERTIA}\nmass_per_length = {MASS}\n{springs}"
+                "[points]\nwall = [0.0, 0.0]\nleft = [1.0, 0.0]\nright = [1.1, 0.0]\nend = [2.1, 0.0]\n"
+                '[reference]\npoint = "wall"\n[modes]\nall = true\ndamping_ratio = 0.0\n'
+            )
+            self.build("bars.toml", "--force")
+            with h5py.File(self.folder / "out/bars.h5") as file:
+                found.append(file["modes/frequency"][()])
+        np.testing.assert_allclose(found[0], found[1], rtol=1e-8)
+
+    def test_sections_of_springs_do_not_share_a_name(self):
+        """'left to right' → 'end' and 'left' → 'right to end' are other springs, and a section may be called as one."""
+        design = make_design(1).replace("[reference]", '[reference]\n', 1)
+        (self.folder / "bars.toml").write_text(
+            design.replace("[sections.bar]", '[sections."springs.0"]', 1).replace('"bar"', '"springs.0"'))
+        process = self.run_program("build", "bars.toml")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("has a section that is called 'springs.0', as one under [sections]", process.stderr)
+
     def test_deflections_under_forces_at_the_end(self):
         """Exact for any number of elements: along F (2 L/EA + 1/k), across by the moments F x and the shear force F in
         bars and bushing."""
