@@ -19,11 +19,14 @@ using support::TextTable;
 
 constexpr Eigen::Index kMostRows = 20;  // of the free modes shown
 
-// A share as percent. Below the rounding floor it says no more than that.
+// A bound as percent with two digits, rounded up. Below the rounding floor it says no more than that.
 std::string format_share(double share, double floor) {
   if (share >= kUnbounded) return "none";
   if (share < floor) return fmt::format("< {:.0e}", 100.0 * floor);
-  return fmt::format("{:.2g}", 100.0 * share);
+  if (!(share > 0.0)) return "0";
+  const double digit = std::pow(10.0, std::floor(std::log10(100.0 * share)) - 1.0);
+  const double above = digit * std::ceil(100.0 * share / digit * (1.0 - 1e-12));
+  return fmt::format("{:.2g}", above);
 }
 
 std::string format_freedom(const Superelement& s, const InterfaceError& one) {
