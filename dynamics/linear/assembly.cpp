@@ -177,6 +177,7 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
     const double shift = kRegularisation * normal.diagonal().maxCoeff();
     for (Eigen::Index i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
+    if (factor.info() != Eigen::Success) throw_cannot_close(model, phi);
     Eigen::VectorXd step = -(weighted * factor.solve(phi));
     double largest = 0.0;
     for (int i = 0; i < model.num_coordinates; ++i) {

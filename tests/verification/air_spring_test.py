@@ -74,6 +74,19 @@ def vehicle(keys, mass=2500.0):
     return f'name = "v"\ngravity = [0.0, {-GRAVITY:g}]\n' + load("load", mass) + guide("load") + air(keys)
 
 
+SMALL_AIR = """
+[[forces]]
+name = "air"
+type = "air-spring"
+a = "ground.origin"
+b = "load.origin"
+design_height = 0.25
+effective_area = 0.002
+volume = 1e-4
+gauge_pressure = 4e5
+"""
+
+
 def gas_flow_at_rest(area, pressure, temperature=293.15):
     """dṁ/dw of (forces, eq. 27), w the logarithm of the ratio of densities."""
     density = pressure / (287.05 * temperature)
@@ -225,6 +238,20 @@ damper = { coefficient = 8000.0 }
         run = self.write_model(text, 'start = "as-given"\nduration = 2.0\n')
         process = run_program([os.environ["SPRUNG_DYNAMICS"], "run", run, "--quiet"], cwd=self.folder)
         self.assertEqual(process.returncode, 3, process.stderr)
+
+    def test_so_it_does_with_sparse_factors(self):
+        """Beyond 100 unknowns the matrix of generalized-α is sparse, and singular where the volume is none."""
+        others = "".join(
+            f"[bodies.other{k}]\nmass = 1.0\ninertia = 0.1\nposition = [{10.0 + k}, 5.0]\n" for k in range(45)
+        )
+        run = self.write_model(
+            'name = "v"\ngravity = [0.0, -9.81]\n' + load("load", 500.0, y=0.25) + guide("load") + others + SMALL_AIR,
+            'start = "as-given"\nduration = 1.0\n[initial.load]\nvelocity = [0.0, -20.0]\n'
+            '[integrator]\nmethod = "generalized-alpha"\nfixed_step = 0.01\n',
+        )
+        process = run_program([os.environ["SPRUNG_DYNAMICS"], "run", run, "--quiet"], cwd=self.folder)
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertIn("the iteration of a step does not converge", process.stderr)
 
 
 class AirSpringOnRoad(ResponseCase):

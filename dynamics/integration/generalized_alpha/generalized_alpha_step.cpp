@@ -96,12 +96,15 @@ void GeneralizedAlphaStep::apply_auxiliary(double length) {
              (1.0 - method_.alpha_f);
 }
 
-void GeneralizedAlphaStep::renew_matrix(const Index3Newton::Weights& weights) {
+// @return false where the matrix is singular
+bool GeneralizedAlphaStep::renew_matrix(const Index3Newton::Weights& weights) {
   if (renewal_ == Renewal::kAll) newton_.linearise(residual_, end_.motion, piece_->branches());
-  newton_.factorise(residual_.terms(), weights);  // a singular one gives infinities
+  is_fresh_ = true;
+  renewal_ = Renewal::kAll;
+  if (!newton_.factorise(residual_.terms(), weights)) return false;
   factored_weights_ = weights;
   renewal_ = Renewal::kNone;
-  is_fresh_ = true;
+  return true;
 }
 
 // The error allowed in a position, and in a velocity: not less than the rounding of positions causes, which
@@ -138,7 +141,7 @@ bool GeneralizedAlphaStep::iterate(double length) {
   double last = 0.0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     residual_.update(end_.motion, piece_->branches());
-    if (renewal_ != Renewal::kNone) renew_matrix(step_weights);
+    if (renewal_ != Renewal::kNone && !renew_matrix(step_weights)) return false;
     scaled_phi_ = residual_.phi() / step_weights.position;
     newton_.solve(residual_.force(), scaled_phi_, delta_, delta_lambda_);
     auxiliary_end_ += delta_;

@@ -76,7 +76,7 @@ class GeneralizedAlphaStep {
   void predict(double length);
   void apply_auxiliary(double length);
   bool iterate(double length);
-  void renew_matrix(const Index3Newton::Weights& weights);
+  bool renew_matrix(const Index3Newton::Weights& weights);
   Index3Newton::Weights weights(double length) const;
   double rounding(int i) const;
   double allowed_position(int i) const;

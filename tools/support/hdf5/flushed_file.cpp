@@ -90,9 +90,8 @@ void keep_as_flushed(std::int64_t file, std::uintmax_t size) {
   const int descriptor = find_descriptor(file);
   if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) throw cannot_be_written(errno);
   clear_open_mark(descriptor);
-  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  ::dup2(nowhere, descriptor);
-  ::close(nowhere);
+  const Descriptor nowhere("/dev/null", O_RDWR);
+  if (::dup2(nowhere.value, descriptor) < 0) throw cannot_be_written(errno);
 }
 
 void copy_flushed(const fs::path& file, const fs::path& copy) {
