@@ -156,9 +156,10 @@ CertifiedShare CertifiedError::find_worst() const {
   double missing = missing_;
   Eigen::VectorXd total = total_, above = above_;
   auto blocks = static_cast<double>(num_blocks_);
-  if (num_blocks_ == 0 && num_samples_ > 2) {
+  // The samples since the last block, whose second half they begin with.
+  if (num_samples_ > (num_blocks_ == 0 ? 2 : kBlock / 2)) {
     add_block(num_samples_, missing, total, above);
-    blocks = 1.0;
+    blocks += 1.0;
   }
   if (blocks == 0.0) return worst;
   const double largest = total.size() > 0 ? std::sqrt(total.maxCoeff() / blocks) : 0.0;

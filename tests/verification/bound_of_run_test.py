@@ -96,6 +96,18 @@ class Bound(VerificationCase):
             told = [one for one in texts if re.match(r"chassis: \d+(\.\d)? % of the r.m.s. .* is above 60 Hz", one)]
             self.assertEqual(bool(told), warns, texts)
 
+    def test_the_end_of_a_run_counts(self):
+        """The bump is met at 0.57 s: after the first 512 outputs, and within the last 256 of 0.76 s."""
+        settings = ("vehicle.bodies.chassis.superelement=chassis_certified", 'modes.chassis="certified"',
+                    "road.start=1.7", "output_step=1e-3")  # fmt: skip
+        shares = []
+        for duration in (0.76, 0.78):
+            words = [word for setting in (*settings, f"duration={duration}") for word in ("--set", setting)]
+            results = self.run_to_results(BUMP, *words, superelements=Path(TRUCK_SUPERELEMENTS))
+            shares.append(results.summary["certified"]["chassis"]["of_rms_acceleration"])
+        self.assertGreater(shares[0], 0.5 * shares[1])
+        self.assertGreater(shares[1], 1e-3)
+
     def test_a_part_of_a_basis_is_not_proved(self):
         self.build(good=("= 60.0", "= 60.0"))
         run = self.write_model(PUSHED.format(superelement="good", point="rear_spring"), PUSHED_RUN)
