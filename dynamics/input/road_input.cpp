@@ -119,6 +119,16 @@ std::string describe_missed_road(const RoadDescription& description, const Road&
       end, end / speed, duration);
 }
 
+std::string describe_unreached_road(const Road& road, double speed, double duration) {
+  if (road.num_segments() < 2) return {};
+  const double begin = road.segment_end(0);
+  if (speed < 0.0 || speed * duration > begin) return {};
+  return fmt::format(
+      "the road begins {:.6g} m ahead of the leading axle, which does not reach it: at 'speed', {:g} m/s, it "
+      "covers {:.6g} m in {:.6g} s",
+      begin, speed, speed * duration, duration);
+}
+
 std::string remark_on_road(const RoadDescription& description, const Road& road, double speed,
                            double duration) {
   const std::string text = describe_missed_road(description, road, speed, duration);

@@ -51,6 +51,8 @@ std::unique_ptr<Road> make_road(const RoadDescription& description);
 /// Checked by tests/dynamics/input/road_input_test.cpp
 std::string describe_missed_road(const RoadDescription& description, const Road& road, double speed,
                                  double duration);
+/// A text if the leading axle does not reach the road in the run; else "". The arguments are those above.
+std::string describe_unreached_road(const Road& road, double speed, double duration);
 /// The same with the place of the road in the run file.
 std::string remark_on_road(const RoadDescription& description, const Road& road, double speed,
                            double duration);

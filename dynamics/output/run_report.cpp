@@ -81,9 +81,10 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
                          const AssemblyReport& assembly, const VelocityReport& velocities,
                          const Equilibrium* equilibrium) {
   std::string text =
-      fmt::format("{}: {} bodies ({}), {} joints, {} coordinates, {} constraints, {} freedoms\n",
-                  vehicle.name, model.bodies.size(), describe_modes(model), model.joints.size(),
-                  model.first_state(), model.num_constraints, model.num_mechanical_freedoms());
+      fmt::format("{}: {} {} ({}), {}, {} coordinates, {} constraints, {} freedoms\n", vehicle.name,
+                  model.bodies.size(), model.bodies.size() == 1 ? "body" : "bodies", describe_modes(model),
+                  support::format_count(model.joints.size(), "joint"), model.first_state(),
+                  model.num_constraints, model.num_mechanical_freedoms());
   if (assembly.largest_movement > 1e-9) {
     text += fmt::format("Assembled: {} moved {:.3g} m to close the joints\n", assembly.moved_marker,
                         assembly.largest_movement);

@@ -32,7 +32,7 @@ struct RunSummary {
   const Run& run;
   const RunStatistics& statistics;
   const TransientStatistics& transient;
-  double duration = 0.0;  ///< simulated [s]
+  double duration = 0.0;  ///< simulated here, from the start or the checkpoint [s]
   RunTimes times;
   const AdaptivityOptions* adaptivity = nullptr;  ///< null if no modes were left out
   const std::vector<RunWarning>& warnings;

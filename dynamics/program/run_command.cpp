@@ -93,6 +93,9 @@ void print_gravest(std::FILE* err, const std::vector<RunWarning>& warnings) {
 void warn_of_missed_road(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
   const Run& run = prepared.run;
   std::string text = describe_missed_road(run.road, *prepared.road, run.speed, run.statistics_to);
+  // Elsewhere 'speed' does not say how far the vehicle comes.
+  if (run.continue_from.empty() && run.initial.empty() && !prepared.model.has_motions && text.empty())
+    text = describe_unreached_road(*prepared.road, run.speed, run.duration);
   if (text.empty()) return;
   warnings.push_back({"summary", {std::string(kComputation)}, std::move(text)});
 }
@@ -270,9 +273,22 @@ void check_names(const RunOutput& output) {
           "exists and is no results file, so it is not overwritten; move it or name another with -o");
     }
   }
-  if (output.results.stem().extension() == ".partial") {
+  if (output.results.extension() == ".partial" || output.results.stem().extension() == ".partial") {
     throw support::InputError({.path = output.results.string()},
                               "is a name of results that are not complete; name others with -o");
+  }
+}
+
+// The file that a run continues is neither replaced nor removed by it.
+void check_continued_file(const Run& run, const RunOutput& output) {
+  if (run.continue_from.empty() || output.results.empty()) return;
+  for (const std::filesystem::path& name : {output.results, partial_name(output.results)}) {
+    if (!is_same_file(run.continue_from, name)) continue;
+    throw support::InputError(
+        run.continue_location,
+        fmt::format("{} is also the name of the results, or of their partial file, which would replace it; "
+                    "name others with -o",
+                    run.continue_from.string()));
   }
 }
 
@@ -285,13 +301,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     throw support::InputError({.path = "--resume"}, "needs -o, the name of the results");
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   const Run& run = prepared.run;
-  if (!run.continue_from.empty() && is_same_file(run.continue_from, output.results)) {
-    throw support::InputError(
-        run.continue_location,
-        fmt::format("{} is also the name of the results, which would replace it; name others "
-                    "with -o",
-                    run.continue_from.string()));
-  }
+  check_continued_file(run, output);
   if (!output.json && !request.quiet && !output.dry_run) print_description(streams.out, prepared);
   std::vector<RunWarning> model_warnings =
       list_model_warnings(prepared.model, prepared.assembly, prepared.start,
@@ -346,8 +356,9 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   warnings.insert(warnings.end(), model_warnings.begin(), model_warnings.end());
   if (written.writer) written.writer->finish(statistics, transient, warnings);
   times.cpu = cpu_time() - request.earlier_cpu_time;
+  const double began = written.checkpoint ? written.checkpoint->state.time : prepared.start.time;
   const RunSummary summary{
-      run,   statistics, transient, run.duration - prepared.start.time,
+      run,   statistics, transient, run.duration - began,
       times, adaptivity, warnings,  written.writer ? &written.writer->storage() : nullptr};
   support::Json report = make_start_json(prepared);
   report.update(make_summary_json(summary));

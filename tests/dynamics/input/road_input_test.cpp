@@ -253,3 +253,16 @@ TEST_CASE("A measured road that ends before the run, and a road left behind, are
   const dynamics::RoadDescription flat = read("shape = \"flat\"");
   CHECK(dynamics::remark_on_road(flat, *dynamics::make_road(flat), -2.0, 10.0).empty());
 }
+
+TEST_CASE("A road that is not reached is told") {
+  const dynamics::RoadDescription bump =
+      read("shape = \"triangle\"\nstart = 1.0\nlength = 0.4\nheight = 0.2");
+  const std::unique_ptr<dynamics::Road> road = dynamics::make_road(bump);
+  CHECK(
+      dynamics::describe_unreached_road(*road, 2.0, 0.4) ==
+      "the road begins 1 m ahead of the leading axle, which does not reach it: at 'speed', 2 m/s, it covers "
+      "0.8 m in 0.4 s");
+  CHECK(dynamics::describe_unreached_road(*road, 2.0, 0.6).empty());
+  CHECK_FALSE(dynamics::describe_unreached_road(*road, 0.0, 10.0).empty());
+  CHECK(dynamics::describe_unreached_road(*dynamics::make_road(read("shape = \"flat\"")), 0.0, 1.0).empty());
+}

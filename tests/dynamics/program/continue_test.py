@@ -72,6 +72,22 @@ class Continue(DynamicsTestCase):
         process = self.run_until(0.5, "first.h5")
         self.assertEqual(process.returncode, 0, process.stderr)
 
+    def test_the_partial_file_of_the_same_name_is_not_continued(self):
+        self.make_first()
+        partial = self.folder / "second.partial.h5"
+        (self.folder / "first.h5").rename(partial)
+        before = partial.read_bytes()
+        process = self.run_until(0.8, "second.h5", "--set", 'continue_from="second.partial.h5"')
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("is also the name of the results, or of their partial file", process.stderr)
+        self.assertEqual(partial.read_bytes(), before)
+
+    def test_results_are_not_called_as_partial_ones_are(self):
+        for name in ("x.partial", "x.partial.h5"):
+            process = self.run_until(0.1, name)
+            self.assertEqual(process.returncode, 2)
+            self.assertIn("is a name of results that are not complete", process.stderr)
+
     def test_a_continued_run_agrees_with_one_long_run(self):
         self.make_first()
         for name, arguments in (("long.h5", ()), ("second.h5", FROM_FIRST)):

@@ -16,6 +16,9 @@ from sprung_tools.files.results_file import open_results  # noqa: E402  after th
 from sprung_tools.runs.run_warnings import read_warnings  # noqa: E402
 
 
+FLAT = 'road={ shape = "flat" }'
+
+
 class Warnings(DynamicsTestCase):
     def run_to_json(self, *settings):
         """Runs to results.h5. Returns the exit code, stderr and what --json printed."""
@@ -85,7 +88,7 @@ class Warnings(DynamicsTestCase):
         self.assertIn(f"warning: {warning['text']}\n", said)
 
     def test_a_good_run_has_none(self):
-        _, _, printed = self.run_to_json("duration=0.2", "modes.chassis=36", "adaptivity.indicator=false")
+        _, _, printed = self.run_to_json("duration=0.2", "modes.chassis=36", "adaptivity.indicator=false", FLAT)
         self.assertEqual((printed["warnings"], self.read_warnings()), ([], []))
 
     def test_a_remark_on_the_vehicle_file_is_kept_beside_the_numbers(self):
@@ -137,6 +140,14 @@ class Warnings(DynamicsTestCase):
             _, said, printed = self.run_to_json("duration=0.5", *settings)
             (text,) = (one["text"] for one in printed["warnings"] if one["of"] == ["computation"])
             self.assertIn(expected, text)
+
+    def test_a_road_that_is_never_reached_is_warned_of(self):
+        for setting, reason in (("road.start=9.0", "at 'speed', 3 m/s, it covers 1.5 m in 0.5 s"),
+                                ("speed=0.0", "at 'speed', 0 m/s, it covers 0 m in 0.5 s")):  # fmt: skip
+            _, said, printed = self.run_to_json("duration=0.5", setting)
+            (text,) = (one["text"] for one in printed["warnings"] if one["of"] == ["computation"])
+            self.assertIn("ahead of the leading axle, which does not reach it: " + reason, text)
+            self.assertIn(text, said)
 
     def run_quarter_car(self, *settings):
         """A quarter car over a bump. Returns the extremes of the body's acceleration, and the warnings."""
