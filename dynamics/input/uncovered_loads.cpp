@@ -19,9 +19,8 @@ using FreedomSet = std::set<std::pair<int, int>>;  // node, freedom
 std::vector<bool> find_turned_markers(const Model& model) {
   std::vector<bool> turned(model.markers.size(), false);
   for (const auto& joint : model.joints) {
-    if (!joint->carries_torque()) continue;
-    turned[static_cast<std::size_t>(joint->marker_a)] = turned[static_cast<std::size_t>(joint->marker_b)] =
-        true;
+    if (joint->carries_torque()) turned[static_cast<std::size_t>(joint->marker_a)] = true;
+    if (joint->carries_torque_at_b()) turned[static_cast<std::size_t>(joint->marker_b)] = true;
   }
   for (const auto& force : model.forces) {
     for (const int marker : force->turned_markers()) turned[static_cast<std::size_t>(marker)] = true;

@@ -34,6 +34,11 @@ bool CoordinateJoint::carries_torque() const {
                      [](const Held& one) { return one.coordinate.kind() != Kind::kDistance; });
 }
 
+bool CoordinateJoint::carries_torque_at_b() const {
+  return std::any_of(parts_.held.begin(), parts_.held.end(),
+                     [](const Held& one) { return one.coordinate.is_angle(); });
+}
+
 void CoordinateJoint::calc_residual(const MarkerState& a, const MarkerState& b, double time,
                                     JointVector& phi) const {
   phi.resize(num_constraints());

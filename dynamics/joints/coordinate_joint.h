@@ -40,6 +40,7 @@ class CoordinateJoint final : public Joint {
   std::optional<RelativeCoordinate> coordinate() const override { return parts_.coordinate; }
 
   bool carries_torque() const override;
+  bool carries_torque_at_b() const override;
   int num_constraints() const override { return static_cast<int>(parts_.held.size()); }
   std::string_view constraint_name(int k) const override { return held(k).name; }
   std::string_view constraint_unit(int k) const override {

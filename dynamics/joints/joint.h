@@ -45,6 +45,8 @@ class Joint {
 
   /// Whether its reaction at a can contain a torque.
   virtual bool carries_torque() const = 0;
+  /// Whether that at b can: forces along the axes of a act at b.
+  virtual bool carries_torque_at_b() const = 0;
 
   virtual int num_constraints() const = 0;
   /// The quantity that constraint k (0-based) holds, for messages: "x", "y".

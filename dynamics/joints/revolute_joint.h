@@ -17,6 +17,7 @@ class RevoluteJoint final : public Joint {
     return RelativeCoordinate(RelativeCoordinate::Kind::kAngle);
   }
   bool carries_torque() const override { return false; }
+  bool carries_torque_at_b() const override { return false; }
   int num_constraints() const override { return 2; }
   std::string_view constraint_name(int k) const override { return k == 0 ? "x" : "y"; }
   void calc_residual(const MarkerState& a, const MarkerState& b, double time,

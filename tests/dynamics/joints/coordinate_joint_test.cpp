@@ -69,6 +69,18 @@ TEST_CASE("Each kind of joint holds its constraints and leaves the rest free", "
   CHECK(distance.time_functions().empty());
 }
 
+// The force of a slot acts at the pin, which is b, and turns a.
+TEST_CASE("A joint tells which of its points bears a torque", "[joints]") {
+  const CoordinateJoint slot = make(dynamics::make_pin_in_slot_joint({0.6, 0.8}));
+  CHECK(slot.carries_torque());
+  CHECK_FALSE(slot.carries_torque_at_b());
+  const CoordinateJoint fixed = make(dynamics::make_fixed_joint(0.0));
+  CHECK(fixed.carries_torque_at_b());
+  const CoordinateJoint distance = make(dynamics::make_distance_joint(TimeFunction(2.5)));
+  CHECK_FALSE(distance.carries_torque());
+  CHECK_FALSE(distance.carries_torque_at_b());
+}
+
 TEST_CASE("Prescribed motion enters with its rate and acceleration", "[joints]") {
   const TimeFunction swing =
       TimeFunction::harmonic({.mean = 0.3, .amplitude = 0.2, .frequency_hz = 1.5, .phase = 0.4});
