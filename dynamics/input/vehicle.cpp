@@ -60,7 +60,7 @@ std::vector<MotionDescription> read_motions(const support::TomlTable& root,
                                 fmt::format("motion '{}' has the name of a joint", motion.name));
     }
     check_point(motion.b, points);
-    if (body_of_point(motion.b.name) == kGroundName) {
+    if (body_of_point(motion.a.name) == kGroundName && body_of_point(motion.b.name) == kGroundName) {
       throw support::InputError(motion.b.location, fmt::format("motion '{}' moves the ground", motion.name));
     }
     motions.push_back(std::move(motion));

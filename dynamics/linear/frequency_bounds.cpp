@@ -10,23 +10,13 @@
 
 namespace sprung::dynamics {
 
-namespace {
-
-// Forces that follow a body make the stiffness unsymmetric; its symmetric part is then that of another
-// vehicle.
-void require_symmetric(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& unknown) {
+bool is_symmetric(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& unknown) {
   constexpr double kUnsymmetric = 1e-5;
   const Eigen::VectorXd sizes = stiffness.diagonal().cwiseAbs().cwiseSqrt();
   const Eigen::MatrixXd allowed =
       kUnsymmetric * sizes * sizes.transpose() + 2.0 * (unknown + unknown.transpose());
-  if (((stiffness - stiffness.transpose()).cwiseAbs().array() > allowed.array()).any()) {
-    throw support::NumericalError(
-        "brackets: the stiffness at rest is not symmetric, as with forces that follow a body; brackets are "
-        "of vehicles whose forces are conservative, but for dampers");
-  }
+  return ((stiffness - stiffness.transpose()).cwiseAbs().array() <= allowed.array()).all();
 }
-
-}  // namespace
 
 FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q,
                                       const Eigen::VectorXd& stiffness,
@@ -41,7 +31,11 @@ FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd&
   const Eigen::Index n = system.mass.rows() - model.num_states();
   const Eigen::MatrixXd own_stiffness = system.stiffness.topLeftCorner(n, n);
   const Eigen::MatrixXd unknown = (system.stiffness_rounding + spread).topLeftCorner(n, n);
-  require_symmetric(own_stiffness, unknown);
+  if (!is_symmetric(own_stiffness, unknown)) {
+    throw support::NumericalError(
+        "brackets: the stiffness at rest is not symmetric, as with forces that follow a body; brackets are "
+        "of vehicles whose forces are conservative, but for dampers");
+  }
   const auto sort_frequencies = [](Eigen::VectorXd omega_squared) -> Eigen::VectorXd {
     std::sort(omega_squared.begin(), omega_squared.end());
     return omega_squared.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);

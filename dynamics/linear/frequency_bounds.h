@@ -14,6 +14,10 @@ struct FrequencyBounds {
   Eigen::VectorXd lower, upper;  ///< ascending
 };
 
+/// Whether a stiffness has a potential; forces that follow a body make it unsymmetric. f×f, f×f.
+/// @param unknown  rounding and spread of the stiffness
+bool is_symmetric(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& unknown);
+
 /// Those of a vehicle linearised about rest at q.
 /// @param stiffness  for each coordinate: of a spring in it without force at q; may be empty
 /// @param masses     each is added to the mass matrix of the coordinates and gives bounds of the same

@@ -118,6 +118,11 @@ Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const
   return derivative;
 }
 
+std::string Kink::describe() const {
+  return fmt::format("'{}' changes its law at static equilibrium or very close to it: a mean slope is used",
+                     element);
+}
+
 std::vector<Kink> find_kinks(PartitionedEquations& equations, double time,
                              const Eigen::VectorXd& q_independent) {
   const Eigen::Index f = q_independent.size();

@@ -48,6 +48,9 @@ Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const
 struct Kink {
   std::string element;      ///< its name
   bool in_position = true;  ///< false if it changes with the sign of a velocity
+
+  /// Of one in position, for the user.
+  std::string describe() const;
 };
 /// The kinks about rest at given positions: each element at most once in position and once in velocity,
 /// positions first.

@@ -9,6 +9,8 @@
 
 #include "dynamics/input/soft_twin.h"
 #include "dynamics/linear/frequency_bounds.h"
+#include "dynamics/linear/linearisation.h"
+#include "dynamics/linear/state_derivatives.h"
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/balance_report.h"
 #include "dynamics/output/run_warnings.h"
@@ -70,6 +72,29 @@ void warn_of_rounded_modes(const Model& model, const std::vector<VehicleMode>& m
            "stiffer reference nodes, at which the body frames sit, or leave out the stiffest modes and "
            "elements",
            fmt::join(open, ", "))});
+}
+
+// What linear modes cannot show of the forces at rest.
+void warn_of_forces_at_rest(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
+  if (!prepared.equilibrium->motion.is_rest()) return;
+  const auto warn = [&](std::string text) {
+    warnings.push_back({"modes", {"frequencies"}, std::move(text)});
+  };
+  const Model& model = prepared.balance_model;
+  const Eigen::VectorXd& q = prepared.equilibrium->q;
+  PartitionedEquations equations(model);
+  equations.choose_partition_at(0.0, q);
+  Eigen::MatrixXd spread;
+  const LinearisedSystem system = linearise(equations, 0.0, q, {}, &spread);
+  const Eigen::Index n = system.mass.rows() - model.num_states();
+  if (!is_symmetric(system.stiffness.topLeftCorner(n, n),
+                    (system.stiffness_rounding + spread).topLeftCorner(n, n))) {
+    warn(
+        "the stiffness at rest is not symmetric, as with forces that follow a body: the undamped frequencies "
+        "are those of its symmetric part; the damped ones are right");
+  }
+  for (const Kink& kink : find_kinks(equations, 0.0, q(system.partition.independent)))
+    if (kink.in_position) warn(kink.describe());
 }
 
 // Prints the warnings about the model at once, as a run does. @return these, and those about the balance
@@ -144,6 +169,7 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   std::vector<RunWarning> warnings = tell_warnings(prepared, resting, request.streams.err);
   warn_of_rounding(*prepared.equilibrium, warnings);
   warn_of_rounded_modes(model, modes, warnings);
+  warn_of_forces_at_rest(prepared, warnings);
   std::optional<FrequencyBracket> bracket;
   if (output.bracket) bracket = calc_bracket(prepared, warnings);
   if (output.json) {

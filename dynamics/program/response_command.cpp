@@ -69,10 +69,7 @@ std::vector<RunWarning> list_warnings(const PreparedRun& prepared, const LinearV
                                  input.name));
   }
   for (const Kink& kink : vehicle.kinks()) {
-    if (!kink.in_position) continue;
-    warn(kink.element,
-         fmt::format("'{}' changes its law at static equilibrium or very close to it: a mean slope is used",
-                     kink.element));
+    if (kink.in_position) warn(kink.element, kink.describe());
   }
   for (const WheelSpeed& wheel : find_wheels_of_other_speed(prepared)) {
     warn(wheel.name,

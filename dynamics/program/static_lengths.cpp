@@ -197,10 +197,12 @@ struct ClosestLengths {
   const ForceDescription& force = vehicle.forces[springs.force(worst)];
   throw support::InputError(
       force.static_length->location,
-      fmt::format("'forces.{}.{}': a length of {:.6g} m cannot be reached together with the other static "
-                  "lengths: {} it comes to {:.6g} m; check that the spring carries load, and that its "
-                  "stops are out of reach",
-                  force.name, force.static_length->key, targets[worst], where, lengths[worst]));
+      fmt::format(
+          "'forces.{}.{}': a length of {:.6g} m cannot be reached together with the other static "
+          "lengths: {} it comes to {:.6g} m, {:.2g} m off; check that the spring carries load, and that its "
+          "stops are out of reach",
+          force.name, force.static_length->key, targets[worst], where, lengths[worst],
+          std::abs(lengths[worst] - targets[worst])));
 }
 
 // The lengths alone would also fit a vehicle that has fallen through its springs. The one to blame is that

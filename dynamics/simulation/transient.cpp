@@ -207,8 +207,11 @@ class TransientRun {
     reached_.switches_in_place =
         time - reached_.last_switch > kSamePlace ? 0 : reached_.switches_in_place + 1;
     if (reached_.switches_in_place > kMaxSwitchesInPlace) {
-      throw support::NumericalError(fmt::format(
-          "a force switches back and forth without end at t = {:.9g} s; look at tyres and road there", time));
+      throw support::NumericalError(
+          fmt::format("a force switches back and forth without end at t = {:.9g} s; look there at tyres on "
+                      "the road, friction "
+                      "and dampers with two rates",
+                      time));
     }
     reached_.last_switch = time;
     ++reached_.statistics.switches;

@@ -118,6 +118,16 @@ class Sled(VerificationCase):
         self.assert_close(momentum, momentum[0], absolute=1e-6)
         self.assertLess(results.summary["energy_closure"], 1e-7)
 
+    def test_of_a_joint_whose_second_point_is_on_the_ground(self):
+        # The coordinate of b relative to a is then minus that of a relative to b.
+        function = 'joint = "rail"\nfunction = { harmonic = { amplitude = 0.4, frequency = 1.2 } }'
+        vehicle = SLED.format(function)
+        turned = vehicle.replace('a = "ground.origin"\nb = "sled.origin"', 'a = "sled.origin"\nb = "ground.origin"')
+        self.assertNotEqual(turned, vehicle)
+        run = 'duration = 0.5\n[integrator]\nrelative_tolerance = 1e-9\n'
+        found = [self.run_text(text, run)["bodies/sled/position"][:, 0] for text in (vehicle, turned)]
+        self.assert_close(found[1], -found[0], absolute=1e-7)
+
     def test_balance_before_the_start_holds_still(self):
         # At t = 0 the rail moves at 0.3 m/s. The equilibrium is that at rest, and the run begins with the motion.
         results = self.run_text(

@@ -101,7 +101,8 @@ std::string explain_stop(int code) {
              "method = \"exponential\"";
     case CV_CONV_FAILURE:
       return "the iteration of a step does not converge; look at forces and positions just before that "
-             "time, and where springs or dampers are stiff try method = \"exponential\" or \"bdf\"";
+             "time, and where springs or dampers are stiff try method = \"exponential\", or \"bdf\" in place "
+             "of \"adams\"";
     case CV_ERR_FAILURE:
       return "the step has become too short; look at forces and positions just before that time, which may "
              "be a singular one";
