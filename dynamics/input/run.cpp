@@ -13,10 +13,11 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kMostOutputs = 1e7, kMostSteps = 1e9;
+constexpr double kShortestRun = 1e-9;  // s; the methods take no steps below 1e-10 s
 const std::array<std::string, 3> kStarts{"equilibrium", "steady", "as-given"};  // as Run::Start
 
 void read_times(const support::TomlTable& root, Run& run) {
-  run.duration = root.number("duration", support::positive("s"));
+  run.duration = root.number("duration", {.unit = "s", .at_least = kShortestRun});
   run.output_step = root.number_or("output_step", run.output_step, support::positive("s"));
   const support::SourceLocation where =
       root.has("output_step") ? root.at("output_step").location() : root.at("duration").location();

@@ -97,7 +97,7 @@ std::string format_equilibrium(const BalanceReport& report) {
         const Channel& channel = report.model.forces[f]->channels()[c];
         if (channel.role == ChannelRole::kRate || channel.role == ChannelRole::kRoadHeight) continue;
         forces.add_row({c == 0 ? report.model.forces[f]->name : "", std::string(channel.name),
-                        fmt::format("{:.6g}", values[c]), std::string(channel.unit)});
+                        fmt::format("{:.6g}", values[c] + 0.0), std::string(channel.unit)});
       }
     }
     text += fmt::format("\n{}", forces.str());

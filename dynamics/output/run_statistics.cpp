@@ -139,7 +139,7 @@ void RunStatistics::add_between(double time, const ConstrainedEquations& equatio
 }
 
 bool RunStatistics::is_counted(double time) const {
-  const double tolerance = 1e-9;
+  const double tolerance = 1e-6 * window_.output_step;
   return window_.from - tolerance <= time && time <= window_.to + tolerance;
 }
 

@@ -38,7 +38,8 @@ void StoragePlan::reduce(const OutputSettings& settings, const std::vector<Store
     size_ = estimate(histories);
     if (size_ < before) reductions_.emplace_back(words);
   };
-  const std::string interval = fmt::format("every {:g} ms", 1e3 * kCoarseStep);
+  const std::string interval = fmt::format(
+      "every {:g} ms", 1e3 * conditions_.output_step * static_cast<double>(rows_between_coarse()));
   if (too_large() && settings.of(StoredGroup::kPoints).which == StorageRequest::Which::kBySize) {
     choice(StoredGroup::kPoints).which = StorageRequest::Which::kReported;
     accept("only points of the summary (the tools compute the others)");
@@ -60,18 +61,25 @@ void StoragePlan::reduce(const OutputSettings& settings, const std::vector<Store
   if (too_large() && thin_out_motion(settings)) accept("positions and velocities " + interval);
 }
 
-// Stores a group every kCoarseStep, unless the run file says how often. @return whether that changes anything
+// Outputs from one stored row to the next, about kCoarseStep apart.
+long StoragePlan::rows_between_coarse() const {
+  return std::lround(kCoarseStep / conditions_.output_step);
+}
+
+// Stores a group about every kCoarseStep, unless the run file says how often. @return whether that changes
+// anything
 bool StoragePlan::thin_out(const OutputSettings& settings, StoredGroup group) {
-  const long every = std::lround(kCoarseStep / conditions_.output_step);
+  const long every = rows_between_coarse();
   if (settings.of(group).every || every <= 1) return false;
   choice(group).every = every;
   return true;
 }
 
-// Stores positions and velocities of points and bodies every kCoarseStep, unless the run file says how often.
+// Stores positions and velocities of points and bodies about every kCoarseStep, unless the run file says how
+// often.
 // @return whether that changes anything
 bool StoragePlan::thin_out_motion(const OutputSettings& settings) {
-  const long every = std::lround(kCoarseStep / conditions_.output_step);
+  const long every = rows_between_coarse();
   if (every <= 1) return false;
   for (const StoredGroup group : {StoredGroup::kPoints, StoredGroup::kBodies}) {
     if (!settings.of(group).every) choice(group).motion_every = every;

@@ -64,6 +64,7 @@ class StoragePlan {
   };
   Choice& choice(StoredGroup group) { return choices_[static_cast<std::size_t>(group)]; }
   void reduce(const OutputSettings& settings, const std::vector<StoredHistory>& histories);
+  long rows_between_coarse() const;
   bool thin_out(const OutputSettings& settings, StoredGroup group);
   bool thin_out_motion(const OutputSettings& settings);
   double estimate(const std::vector<StoredHistory>& histories) const;

@@ -56,6 +56,24 @@ void collect_time_functions(Model& model) {
                           model.time_breaks.end());
 }
 
+// The largest distance of a marker from its body's frame; where all are at frames, the largest distance of
+// two places on the ground at which joints and forces act; else 1 m.
+double find_length_scale(const Model& model) {
+  double extent = 0.0;
+  for (const Marker& marker : model.markers) {
+    if (marker.body != kGround) extent = std::max(extent, marker.p_BP.norm());
+  }
+  if (extent > 0.0) return extent;
+  const Marker* first = nullptr;
+  for (const int acting : model.acting_markers) {
+    const Marker& marker = model.markers[static_cast<std::size_t>(acting)];
+    if (marker.body != kGround) continue;
+    if (first == nullptr) first = &marker;
+    extent = std::max(extent, (marker.p_BP - first->p_BP).norm());
+  }
+  return extent > 0.0 ? extent : 1.0;
+}
+
 }  // namespace
 
 BodyCoordinate Model::body_coordinate(int coordinate) const {
@@ -151,11 +169,7 @@ void number_model(Model& model) {
   }
   model.acting_markers.assign(acting.begin(), acting.end());
   collect_time_functions(model);
-  double extent = 0.0;
-  for (const Marker& marker : model.markers) {
-    if (marker.body != kGround) extent = std::max(extent, marker.p_BP.norm());
-  }
-  model.length_scale = extent > 0.0 ? extent : 1.0;
+  model.length_scale = find_length_scale(model);
   set_stand_ins(model);
 }
 

@@ -42,7 +42,7 @@ struct Model {
   std::vector<InternalState> states;  ///< of all force elements: the last coordinates (system, eq. 14)
   std::vector<int> force_states;      ///< first of `states` of each force element, and their number
   std::vector<int> acting_markers;    ///< those of joints and forces, ascending; the others are for results
-  double length_scale = 1.0;          ///< largest distance of a marker from its body's frame [m]
+  double length_scale = 1.0;          ///< the model's size, for tolerances [m]
   bool has_motions = false;           ///< some joint prescribes a motion
   bool has_massless_bodies = false;   ///< some body has no mass or no inertia
   bool has_light_bodies = false;      ///< some mass or inertia is 0 or below the least metric

@@ -177,7 +177,7 @@ TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refu
 
 TEST_CASE("Inconsistent times are refused") {
   CHECK(error_of("duration = 5.0", "duration = -5.0") ==
-        "runs/first.toml:3:12: error: 'duration' must be > 0 s, got -5");
+        "runs/first.toml:3:12: error: 'duration' must be ≥ 1e-09 s, got -5");
   CHECK(error_of("duration = 5.0", "duration = inf") ==
         "runs/first.toml:3:12: error: 'duration' must be a finite number [s], got inf");
   CHECK(error_of("output_step = 2e-3", "output_step = 6.0") ==

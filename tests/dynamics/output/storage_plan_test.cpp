@@ -116,6 +116,16 @@ TEST_CASE("What does not fit is reduced step by step, and no further than needed
         "reactions of joints and loads of force elements every 10 ms; positions and velocities every 10 ms");
 }
 
+TEST_CASE("What is thinned out is told with the interval at which it is stored") {
+  OutputSettings settings;
+  settings.size = 1e-4;
+  const StoragePlan plan(
+      settings, kHistories,
+      {.num_outputs = 10001.0, .output_step = 4e-3, .reported = {}, .stiffened_bodies = {}});
+  CHECK(plan.every(history("/recovery/frame/moment")) == 3);
+  CHECK(describe_storage(plan, settings).find("stress resultants every 12 ms") != std::string::npos);
+}
+
 TEST_CASE("What the run file asks for is stored, however large it is") {
   OutputSettings settings;
   settings.size = 1.0;

@@ -49,7 +49,8 @@ std::string shortened(std::string_view text) {
 
 std::string join_key(std::string_view parent, std::string_view part) {
   const bool bare = !part.empty() && std::all_of(part.begin(), part.end(), is_bare_key_character);
-  const std::string text = bare ? std::string(part) : fmt::format("\"{}\"", part);
+  const char quote = part.find('"') == std::string_view::npos ? '"' : '\'';
+  const std::string text = bare ? std::string(part) : fmt::format("{0}{1}{0}", quote, part);
   return parent.empty() ? text : fmt::format("{}.{}", parent, text);
 }
 
