@@ -2,8 +2,10 @@
 names the place, never with numbers that are none.
 
 Every third place in every_element.toml, every_element_run.toml and two designs has its turn with one value, the same on
-every machine; SPRUNG_MUTANTS=10 tries ten values at all places. Needs both programs and the truck's superelements."""
+every machine; SPRUNG_MUTANTS=10 tries ten values at all places and prints how many ended with which exit code.
+Needs both programs and the truck's superelements."""
 
+import collections
 import copy
 import os
 import random
@@ -112,6 +114,9 @@ class MutatedModels(ToolTestCase):
                 with self.subTest(what):
                     codes.append(run_changed(changed))
         self.assertGreater(codes.count(2), len(codes) / 3)
+        self.assertGreater(codes.count(0) + codes.count(1), len(codes) / 25)  # the document itself is good
+        if "SPRUNG_MUTANTS" in os.environ:
+            print(self.id(), sorted(collections.Counter(codes).items()), flush=True)
 
     def test_the_models_themselves_run(self):
         for command in ("run", "response"):
@@ -148,7 +153,7 @@ class MutatedModels(ToolTestCase):
         self.try_places(self.vehicle, lambda vehicle: self.run_model(vehicle, run, "modes"))
 
     def test_a_run_with_another_value(self):
-        self.try_places({**self.run_table, "duration": 0.02}, lambda run: self.run_model(self.vehicle, run))
+        self.try_places(self.run_table, lambda run: self.run_model(self.vehicle, run))
 
     def test_a_response_with_another_value(self):
         rest = {key: self.run_table[key] for key in ("vehicle", "speed", "duration")}
