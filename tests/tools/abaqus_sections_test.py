@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 from abaqus_case import AbaqusCase
-from polygons import integrate
+from polygons import find_extremes, find_farthest, integrate
 from small_decks import ABAQUS
 
 
@@ -45,6 +45,10 @@ class AbaqusSections(AbaqusCase):
             with self.subTest(section):
                 shape = self.find_shape(f"*BEAM SECTION, ELSET=A, MATERIAL=M, SECTION={section}\n")
                 np.testing.assert_allclose(shape[:4], integrate(*outlines)[:4], rtol=1e-12, atol=1e-12)
+                if section.startswith("HEX"):
+                    self.assertIsNone(find_extremes(shape))  # where its corners lie is not read
+                else:
+                    np.testing.assert_allclose(find_extremes(shape), find_farthest(outlines), rtol=1e-12)
 
     def test_the_centroid_away_from_the_nodes_is_told(self):
         # By l (I) and d (trapezoid), the height of the nodes over the bottom, they may be anywhere.

@@ -45,6 +45,9 @@ class AsterMeshTest(ToolTestCase):
         (self.folder / name).write_text(text, encoding="utf-8")
         return str(self.folder / name)
 
+    def test_the_help_of_the_tool_names_the_format(self):
+        self.assertIn("Code_Aster's .mail", self.run_tool("convert_mesh", "--help").stdout)
+
     def test_a_group_may_have_its_name_in_the_line_after_its_keyword(self):
         mesh = read_aster_mesh(self.write(PORTAL.replace("GROUP_MA\n POSTS\n", "GROUP_MA\n NOM = POSTS  NBOBJ=2\n")))
         self.assertEqual(mesh.element_sets["POSTS"].tolist(), [0, 2])

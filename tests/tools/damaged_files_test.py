@@ -1,6 +1,7 @@
 """Damaged files: whatever is changed in a file, a tool ends well or with an InputError, never with another exception.
 
-The mutants are made from a fixed seed, so that a failure names the one that causes it.
+The mutants are made from a fixed seed, so that a failure names the one that causes it. SPRUNG_MUTANTS=10 tries ten
+times as many and prints how many were refused.
 """
 
 import contextlib
@@ -39,6 +40,7 @@ from sprung_tools.cli import (
 from sprung_tools.files.errors import InputError
 from sprung_tools.plots import picture_file
 
+ROUNDS = int(os.environ.get("SPRUNG_MUTANTS", "1"))
 SUPERELEMENTS = [ROOT / f"tests/reduce/data/version_{number}.h5" for number in (1, 7)]
 VALUES = (np.nan, np.inf, -1, 0, 10**9, "text", b"\xff\xfe", np.arange(3), np.bytes_("x"))
 NUMBERS = (
@@ -157,6 +159,7 @@ class Mutants(ToolTestCase):
     def count_refused(self, base, commands, change, seeds):
         """The number of mutants that were refused. base: file that is changed."""
         refused = 0
+        seeds = range(seeds.start, seeds.start + ROUNDS * len(seeds))
         for seed in seeds:
             rng = random.Random(seed)
             target = self.folder / f"{base.stem}_{seed}{base.suffix}"  # what a command leaves open is not written again
@@ -165,6 +168,8 @@ class Mutants(ToolTestCase):
             module, arguments = rng.choice(commands)
             with self.subTest(base.name, seed=seed, command=module.__name__):
                 refused += self.is_refused(module, arguments.format(file=target.name))
+        if ROUNDS > 1:
+            print(f"{base.name}: {refused} of {len(seeds)} refused", flush=True)
         return refused
 
     def test_a_results_file_with_something_changed(self):
@@ -224,6 +229,11 @@ class Mutants(ToolTestCase):
             ("a.inp", ABAQUS + "*NSET, NSET=B, GENERATE\n1, 2000000000, 1\n", "generates more than"),
             ("a.inp", ABAQUS.replace("3, 1.,", "99999999999999999999, 1.,"), "numbers? of a node or an element|end at"),
             ("a.bdf", NASTRAN.replace("ENDDATA", "SET1,4,1,THRU,2000000000\nENDDATA"), "is not a range of"),
+            ("a.bdf", NASTRAN.replace("ENDDATA", f"SET1,4,1,THRU,{'9' * 30}\nENDDATA"), "is not a node's number"),
+            ("a.bdf", NASTRAN.replace("ENDDATA", f"SET1,4,{'9' * 5000}\nENDDATA"), "is not a node's number"),
+            ("a.bdf", NASTRAN.replace("2,0.,1.,0.", f"2,{'9' * 5000}"), "numbers end at|is no node"),
+            ("a.inp", f"{ABAQUS}*NSET, NSET=B, GENERATE\n1, {'9' * 30}\n", "which end at"),
+            ("a.inp", f"{ABAQUS}*NSET, NSET=B\n1, {'9' * 5000}\n", "is not a number"),
             ("a.bdf", NASTRAN.replace("GRID,2", "GRID,99999999999999999999"), "numbers end at"),
             ("a.inp", ABAQUS.replace("2, 1.,", "2, 1e308,").replace("3, 1.,", "3, -1e308,"), "too large"),
         ):

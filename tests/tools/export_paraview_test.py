@@ -165,6 +165,11 @@ class OfTheTruck(ToolTestCase):
         self.assertEqual(sorted(os.listdir(self.folder / "modes")), ["mode_001.vtu", "notes.txt"])
         (self.folder / "file").touch()
         self.assert_refuses(self.run_tool("export_paraview", "chassis.h5", "-o", "file.pvd"), "'file' is there")
+        (self.folder / "real").mkdir()
+        (self.folder / "link").symlink_to("real")
+        refused = self.run_tool("export_paraview", "chassis.h5", "-o", "link.pvd")
+        self.assert_refuses(refused, "link.pvd: error: 'link' is a link, which the tool does not replace")
+        self.assertEqual(os.listdir(self.folder / "real"), [])
 
     def test_errors_are_reported_and_leave_no_file(self):
         before = sorted(os.listdir(self.folder))
@@ -186,7 +191,7 @@ class OfTheTruck(ToolTestCase):
             ("--modes: error: run.h5 is a run", "run.h5", "-o", "a.pvd", "--modes", "1"),
             ("--every: error: chassis.h5 is a superelement", "chassis.h5", "-o", "a.pvd", "--every", "1"),
             ("no samples from 9 to 0.5 s; the run has those from 0 to 0.5 s", "run.h5", "-o", "a.pvd", "--from", "9"),
-            ("none/a.pvd: error: cannot write the files (No such file or directory)", "chassis.h5", "-o", "none/a.pvd"),
+            ("none/a.pvd: error: there is no folder 'none'", "chassis.h5", "-o", "none/a.pvd"),
             ("none.h5: error: no such file", "none.h5", "-o", "a.pvd"),
         ):
             with self.subTest(fragment):

@@ -9,6 +9,9 @@ import unittest
 import numpy as np
 from starter_design_test import StarterCase
 
+from sprung_tools.mesh_import.carried_masses import merge_masses
+from sprung_tools.mesh_import.frame_properties import PointMass
+
 RAIL_X = (0.0, 1.0, 2.1, 3.0, 4.2)  # m
 RAIL_Z = (0.5, 0.6, 0.55, 0.5, 0.5)
 HALF_WIDTH = 0.4
@@ -54,6 +57,16 @@ def write_plane_design():
         )
         + '[reference]\npoint = "p2"\n[modes]\nall = true\ndamping_ratio = 0.01\n'
     )
+
+
+class Masses(unittest.TestCase):
+    def test_masses_of_one_node_add_up_also_without_moments_of_inertia(self):
+        turning = np.diag([1.0, 2.0, 3.0])
+        for inertias, expected in (((turning, turning), 2 * turning), ((None, turning), turning),
+                                   ((turning, None), turning), ((None, None), None)):  # fmt: skip
+            (one,) = merge_masses([PointMass("", 4, 2.0 + k, inertia) for k, inertia in enumerate(inertias)])
+            self.assertEqual((one.node, one.mass), (4, 5.0))
+            np.testing.assert_array_equal(one.inertia, expected)
 
 
 class Ladder(StarterCase):

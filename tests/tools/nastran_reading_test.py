@@ -3,7 +3,7 @@
 import unittest
 
 import numpy as np
-from polygons import box, integrate
+from polygons import box, find_extremes, find_farthest, integrate
 from small_decks import NASTRAN
 from tool_test_case import ToolTestCase
 
@@ -207,6 +207,9 @@ class Reading(ToolTestCase):
 
     def test_shapes_against_integrals_over_their_outlines(self):
         # Corners (z, y) from the figures of the Quick Reference Guide, z to the right; our width is to the left.
+        tee = [(-2, 5), (2, 5), (2, 4), (0.5, 4), (0.5, 0), (-0.5, 0), (-0.5, 4), (-2, 4)]
+        turned = [(0, -2), (1, -2), (1, -0.5), (5, -0.5), (5, 0.5), (1, 0.5), (1, 2), (0, 2)]
+        channel = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 5), (3, 5), (3, 6), (0, 6)]
         angle = [(0, 0), (5, 0), (5, 0.5), (0.7, 0.5), (0.7, 4), (0, 4)]
         zed = [(0, 2.5), (2, 2.5), (2, 0), (5, 0), (5, 0.5), (3, 0.5), (3, 3), (0, 3)]
         hat = [(0, 0), (2.5, 0), (2.5, 3.5), (5.5, 3.5), (5.5, 0), (8, 0), (8, 0.5), (6, 0.5), (6, 4), (2, 4), (2, 0.5),
@@ -216,6 +219,9 @@ class Reading(ToolTestCase):
         hexagon = [(0, 2), (1, 0), (5, 0), (6, 2), (5, 4), (1, 4)]
         holes = [box(0.4, 0.3, 3.7, 3.5, is_hole=True), box(4.3, 0.6, 8.5, 3.8, is_hole=True)]
         for card, outlines in (
+            ("T\n,4.,5.,1.,1.", [tee[::-1]]),
+            ("T1\n,4.,4.,1.,1.", [[(-z, y) for z, y in turned[::-1]]]),
+            ("CHAN\n,3.,6.,1.,1.", [channel]),
             ("L\n,5.,4.,.5,.7", [angle]),
             ("Z\n,2.,1.,2.,3.", [zed]),
             ("HAT\n,4.,.5,4.,2.", [hat]),
@@ -227,6 +233,8 @@ class Reading(ToolTestCase):
                 shape = self.read_shape(f"PBARL,1,1,,{card}")
                 area, hh, ww, hw, _, _ = integrate(*outlines)
                 np.testing.assert_allclose(shape[:4], (area, hh, ww, -hw), rtol=1e-12, atol=1e-12)
+                mirrored = [[(-z, y) for z, y in outline] for outline in outlines]
+                np.testing.assert_allclose(find_extremes(shape), find_farthest(mirrored), rtol=1e-12)
 
     def test_a_shape_whose_shear_centre_is_not_its_centroid_is_told(self):
         for card, is_told in (

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from sprung_tools.mesh_import.plane_section import calc_extremes
+
 
 def integrate(*outlines):
     """(area, ∫h², ∫w², ∫hw about the centroid, w, h of the centroid) of the area within outlines of corners (w, h), by
@@ -17,6 +19,21 @@ def integrate(*outlines):
         ]  # fmt: skip
     area, w0, h0 = sums[0], sums[1] / sums[0], sums[2] / sums[0]
     return area, sums[3] - area * h0**2, sums[4] - area * w0**2, sums[5] - area * w0 * h0, w0, h0
+
+
+DIRECTIONS = np.array([(np.sin(angle), np.cos(angle)) for angle in np.linspace(0.0, np.pi, 12, endpoint=False)])
+
+
+def find_farthest(outlines):
+    """The largest distance from the centroid along each of DIRECTIONS (w, h) that a corner of outlines has."""
+    corners = np.concatenate([np.array(one, dtype=float) for one in outlines]) - integrate(*outlines)[4:]
+    return np.max(np.abs(DIRECTIONS @ corners.T), axis=1)
+
+
+def find_extremes(shape):
+    """The same by a Shape, for a line along x with d along y: its height is turned by each angle."""
+    heights = np.array([(0.0, h, w) for w, h in DIRECTIONS])
+    return calc_extremes(shape, np.tile((1.0, 0.0, 0.0), (len(heights), 1)), heights, "xy")
 
 
 def box(left, bottom, right, top, is_hole=False):

@@ -74,6 +74,7 @@ class Reading(ToolTestCase):
         for quantity, expected in {
             "bodies/chasis/position.y": "'/bodies' holds chassis",
             "bodies/chassis/speed.y": "'/bodies/chassis' holds acceleration, center_of_mass, modal, position",
+            "points/chassis.seat": "'/points/chassis.seat' holds acceleration, position",
             "bodies/chassis/position.z": "component 'z', expected x, y, angle",
             "bodies/chassis/position": "component '', expected x, y, angle",
             "points/chassis.seat/position.angle": "component 'angle', expected x, y",

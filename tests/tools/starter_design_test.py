@@ -28,7 +28,8 @@ LINES = {
     "beam": (("left_top", "crown", "ridge", "right_top"),),
     "brace": (("left", "crown"),),
 }
-ROD = 4e-4  # m², a rod bends as a round bar of its area: A² / 4π
+ROD = 4e-4  # m², a rod bends as a round bar of its area: I = A² / 4π, W = √(A³/π) / 4
+ROUND_BAR = f"area = {ROD}\nsecond_moment = {ROD**2 / (4 * np.pi)!r}\nsection_modulus = {(ROD**3 / np.pi) ** 0.5 / 4!r}"
 
 
 def write_portal(sections, crown_mass=0.0):
@@ -79,6 +80,11 @@ class StarterCase(ToolTestCase):
             scale = np.max(np.abs(expected[name][()]))
             np.testing.assert_allclose(found[name][()], expected[name][()], rtol=SAME, atol=SAME * scale, err_msg=name)
 
+    def assert_same_moduli(self, found, expected):
+        """The section moduli of all elements agree to SAME, in whatever order they are."""
+        moduli = [np.sort(one["sections/modulus"][()]) for one in (found, expected)]
+        np.testing.assert_allclose(*moduli, rtol=SAME)
+
 
 class OfThePortal(StarterCase):
     """The starter design, built without a change, against the design written by hand."""
@@ -88,9 +94,11 @@ class OfThePortal(StarterCase):
         hand = {  # bars with y of their elements normal to the plane: the width of PBARL lies in it
             "post": 'shape = "box"\nwidth = 0.12\nheight = 0.1\nwall = 0.005',
             "beam": 'shape = "rectangle"\nwidth = 0.1\nheight = 0.08',
-            "brace": f"area = {ROD}\nsecond_moment = {ROD**2 / (4 * np.pi)!r}",
+            "brace": ROUND_BAR,
         }
-        self.assert_same_body(self.build("frame"), self.build("hand", write_portal(hand, crown_mass=12.5)))
+        found, expected = self.build("frame"), self.build("hand", write_portal(hand, crown_mass=12.5))
+        self.assert_same_body(found, expected)
+        self.assert_same_moduli(found, expected)
 
     def test_abaqus_with_its_1_direction_normal_to_the_plane(self):
         deck = (DATA / "portal.inp").read_text(encoding="utf-8")
@@ -101,9 +109,11 @@ class OfThePortal(StarterCase):
         hand = {  # the second number of BOX and RECT lies along the 2-direction, in the plane
             "post": 'shape = "box"\nwidth = 0.1\nheight = 0.12\nwall = 0.005',
             "beam": 'shape = "rectangle"\nwidth = 0.08\nheight = 0.1',
-            "brace": f"area = {ROD}\nsecond_moment = {ROD**2 / (4 * np.pi)!r}",
+            "brace": ROUND_BAR,
         }
-        self.assert_same_body(self.build("frame"), self.build("hand", write_portal(hand)))
+        found, expected = self.build("frame"), self.build("hand", write_portal(hand))
+        self.assert_same_body(found, expected)
+        self.assert_same_moduli(found, expected)
 
     def test_two_instances_one_moved_and_turned(self):
         # A leg of 2 m along x from the origin; the second one goes up at the first one's end: turned by 90° about z.
@@ -276,6 +286,71 @@ class OfDecks(StarterCase):
         (self.folder / "frame.toml").unlink()
         _, text = self.convert_text("a.inp", ABAQUS + inertia, "--scale", "1e-3")  # N mm s² = 1000 kg mm² = 1e-3 kg m²
         self.assertIn("# *ROTARY INERTIA (line 10) at node 3, moments of inertia up to 0.003 kg m²: its axes are", text)
+
+    def read_modulus(self, card, *arguments, name="a.bdf", deck=NASTRAN):
+        """The section modulus of the starter design with a property of the bars, and the design's text. The bar lies
+        along x, and y of its element along y."""
+        (self.folder / "frame.toml").unlink(missing_ok=True)
+        whole = deck.replace("ENDDATA", f"{card}\nENDDATA") if deck is NASTRAN else deck + card
+        _, text = self.convert_text(name, whole, *arguments)
+        return next(iter(self.read(text)["sections"].values())).get("section_modulus"), text
+
+    def test_the_section_modulus_is_that_of_the_farther_fibre_in_the_plane(self):
+        # A T of a flange 4 × 1 over a web 1 × 4, each 1.25 from the common centroid, which is 3.25 over the bottom.
+        tee = (4 * 1 + 1 * 64) / 12 + 8 * 1.25**2
+        for card, expected in (
+            ("PBARL,1,1,,BAR\n,2.,3.", 2 * 9 / 6),
+            ("PBEAML,1,1,,BAR\n,2.,3.", 2 * 9 / 6),
+            ("PBARL,1,1,,BOX\n,4.,6.,1.,.5", (4 * 216 - 3 * 64) / 12 / 3),
+            ("PBARL,1,1,,TUBE\n,2.,1.", 15 * np.pi / 4 / 2),
+            ("PBARL,1,1,,ROD\n,2.", np.pi * 2**3 / 4),
+            ("PBARL,1,1,,T\n,4.,5.,1.,1.", tee / 3.25),
+            ("PBARL,1,1,,T2\n,4.,5.,1.,1.", tee / 3.25),
+            ("PBARL,1,1,,HEXA\n,1.,6.,4.", 2**3 * (6 + 3 * 4) / 6 / 2),
+        ):
+            with self.subTest(card):
+                modulus, text = self.read_modulus(card)
+                self.assertAlmostEqual(modulus, expected, delta=1e-12 * expected)
+                self.assertNotIn("its section modulus", text)
+        start = "*BEAM SECTION, ELSET=A, MATERIAL=M, SECTION="  # the 1-direction is -z: the height lies in the plane
+        for section, expected in (
+            ("RECT\n2., 3.", 2 * 9 / 6), ("CIRC\n4., 2.", np.pi * 4 * 4 / 32), ("PIPE\n2., 1.", 15 * np.pi / 4 / 2),
+            ("TRAPEZOID\n4., 3., 2., 1.", 27 * (16 + 32 + 4) / (36 * 6) / (3 - 3 * 8 / 18)),
+            ("ARBITRARY\n1, 0., -2., 0., 2., .1", 0.1 * 64 / 12 / 2),
+        ):
+            with self.subTest(section):
+                modulus, _ = self.read_modulus(f"{start}{section}\n", name="a.inp", deck=ABAQUS)
+                self.assertAlmostEqual(modulus, expected, delta=1e-12 * expected)
+
+    def test_the_section_modulus_has_the_design_s_unit(self):
+        steel = "\nMAT1,1,2.1+5,,.3,7.85-9"
+        modulus, _ = self.read_modulus(f"PBARL,1,1,,BOX\n,80.,120.,5.,5.{steel}", "--scale", "1e-3")
+        expected = (0.08 * 0.12**3 - 0.07 * 0.11**3) / 12 / 0.06
+        self.assertAlmostEqual(modulus, expected, delta=1e-12 * expected)
+
+    def test_a_rod_has_the_section_modulus_of_a_round_bar(self):
+        rod = NASTRAN.replace("CBAR,1,1,1,2,0.,1.,0.", "CROD,1,1,1,2")
+        for card, expected in (("PROD,1,1,3.", np.pi * (3 / np.pi) ** 1.5 / 4), ("PTUBE,1,1,4.,1.", 15 * np.pi / 8)):
+            (self.folder / "frame.toml").unlink(missing_ok=True)
+            _, text = self.convert_text("a.bdf", rod.replace("ENDDATA", f"{card}\nENDDATA"))
+            modulus = self.read(text)["sections"]["property_1"]["section_modulus"]
+            self.assertAlmostEqual(modulus, expected, delta=1e-12 * expected)
+
+    def test_a_section_modulus_that_is_not_known_is_listed(self):
+        lost = "# of section 'property_1': its section modulus, which stresses need: "
+        modulus, text = self.read_modulus("PBAR,1,1,2.,3.,4.")
+        self.assertIsNone(modulus)
+        self.assertIn(f"{lost}the source does not give its outline\n", text)
+        # A square bar has one second moment however it is turned, but not one section modulus.
+        no_way = NASTRAN.replace("2,0.,1.,0.", "2").replace("ENDDATA", "PBARL,1,1,,BAR\n,2.,2.\nENDDATA")
+        (self.folder / "frame.toml").unlink()
+        _, text = self.convert_text("b.bdf", no_way)
+        self.assertEqual(self.read(text)["sections"]["property_1"].get("second_moment"), 16 / 12)
+        self.assertIn(f"{lost}how it is turned about its axis is not said\n", text)
+        more = "GRID,3,,2.,0.,0.\nCBAR,2,1,2,3,0.,1.,1.\nPBARL,1,1,,BAR\n,2.,2.\nENDDATA"
+        (self.folder / "frame.toml").unlink()
+        _, text = self.convert_text("c.bdf", NASTRAN.replace("ENDDATA", more))
+        self.assertIn("it is from 0.942809 to 1.33333 as its lines are\n#   turned, divide it\n", text)
 
     def test_a_taper_and_a_shape_that_is_not_known_are_listed(self):
         beam = NASTRAN.replace("CBAR", "CBEAM")

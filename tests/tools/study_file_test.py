@@ -11,6 +11,7 @@ from scipy.stats import qmc
 from tool_test_case import ROOT, TOOLS, ToolTestCase
 
 from sprung_tools.files.errors import InputError
+from sprung_tools.files.toml_text import cut_key
 from sprung_tools.study.sampling import is_balanced, make_points
 from sprung_tools.study.study_file import PARAMETER_KEYS, ROAD_KEYS, ROOT_KEYS, SAMPLING_KEYS, read_study
 
@@ -145,6 +146,11 @@ class Errors(StudyCase):
              "'to', got 0.1, expected more than 'from' = 0.1"),
             (HEAD + LOG_RANGE.replace("10.0", "0.0") + "number = 3\n", "6:1", "a number above 0 for logarithmic"),
             (HEAD + RANGE.replace("0.1", "nan") + "number = 3\n", "5:1", "'from', got nan, expected a number"),
+            (HEAD + RANGE.replace("0.4", "1" + 400 * "0") + "number = 3\n", "6:1", "'to', got 10+, expected a number"),
+            (HEAD + SPEED.replace("5.0", "1" + 400 * "0"), "5:1", "expected finite numbers"),
+            (HEAD + SPEED.replace("5.0", "1" + 5000 * "0"), "1:1", "Exceeds the limit"),
+            (HEAD + SPEED.replace("speed", "road..height"), "4:8", "'road..height' is no key: names with dots"),
+            (design.replace("fram.x", "frame"), "5:8", r"'design.frame' is no key of a design"),
             (HEAD + random + RANGE + "number = 3\n", "10:1", "'number' has no effect with method \"sobol\""),
             (HEAD + "[sampling]\nnumber = 4\n" + RANGE, "4:1", "'number' has no effect with method \"grid\""),
             (HEAD + '[sampling]\nmethod = "sobol"\n' + RANGE, "3:1",
@@ -173,6 +179,14 @@ class Errors(StudyCase):
     def test_lists_for_several_keys_have_a_value_for_each(self):
         with self.assertRaisesRegex(InputError, "study.toml:6:1: error: .*expected lists of 2 values"):
             self.read(HEAD + '[[parameters]]\nname = "p"\nkeys = ["a", "b"]\nvalues = [[1, 2, 3]]\n')
+
+    def test_a_design_whose_name_has_a_dot_stands_in_quotes(self):
+        (self.folder / "frame.2.toml").touch()
+        text = f'designs = ["frame.2.toml"]\n{HEAD}[[parameters]]\nkey = \'design.NAME.x\'\nvalues = [1]\n'
+        study = self.read(text.replace("NAME", '"frame.2"'))
+        self.assertEqual(cut_key(study.parameters[0].keys[0], "design", "frame.2"), "x")
+        with self.assertRaisesRegex(InputError, r"'design.frame.2.x' is no key of a design \(designs: \"frame.2\"\)"):
+            self.read(text.replace("NAME", "frame.2"))
 
     def test_every_method_and_every_command_is_read(self):
         methods = ("sobol", "latin-hypercube")

@@ -69,6 +69,37 @@ class Designs(StudyCase):
         self.assert_refuses(self.study(), "study.toml:10:8: error: 'modes.baem' is about no body of the vehicle")
         self.assertEqual((self.folder / "out/rows.jsonl").read_text(encoding="utf-8"), "")
 
+    def test_names_with_dots_stand_in_quotes(self):
+        text = (VERIFICATION / "beam_inside.toml").read_text(encoding="utf-8")
+        text = text.replace("[materials.steel]", '[materials."steel.1"]').replace('"steel"', '"steel.1"')
+        (self.folder / "beam_inside.toml").write_text(text, encoding="utf-8")
+        key = """design.'beam_inside'.materials."steel.1".youngs_modulus"""
+        self.write_study(
+            'command = "modes"\ndesigns = ["beam_inside.toml"]\nmeasures = ["program/modes/2/undamped_frequency"]\n'
+            f"[[parameters]]\nkey = {json.dumps(key)}\nvalues = [1e11, 4e11]\n",
+            run=VERIFICATION / "pinned_beam_run.toml",
+        )
+        self.assert_succeeds(self.study())
+        low, high = (float(row["program/modes/2/undamped_frequency"]) for row in self.read_table())
+        self.assertAlmostEqual(high / low, 2.0, delta=1e-8)
+
+    def test_a_whole_body_may_name_its_superelement(self):
+        run_program([REDUCE, "build", VERIFICATION / "beam_inside.toml"], cwd=self.folder, check=True)
+        body = 'superelement = "beam_inside", position = [3.0, -1.0], angle = 0.4'
+        for key, value in (("vehicle.bodies.beam", f"{{ {body} }}"), ("vehicle.bodies", f"{{ beam = {{ {body} }} }}")):
+            vehicle = (VERIFICATION / "pinned_beam.toml").read_text(encoding="utf-8")
+            (self.folder / "vehicle.toml").write_text(vehicle.replace("beam_inside", "another"), encoding="utf-8")
+            run = (VERIFICATION / "pinned_beam_run.toml").read_text(encoding="utf-8")
+            (self.folder / "run.toml").write_text(run.replace("pinned_beam.toml", "vehicle.toml"), encoding="utf-8")
+            self.write_study(
+                'command = "modes"\nsuperelements = "."\nmeasures = ["program/modes/2/undamped_frequency"]\n'
+                f'[[parameters]]\nname = "body"\nkey = "{key}"\nvalues = [{value}]\n',
+                run="run.toml",
+            )
+            with self.subTest(key):
+                self.assert_succeeds(self.study())
+                self.assertEqual([row["error"] for row in self.read_table()], [""])
+
     def test_a_key_that_leads_through_a_number_is_a_row_with_the_reason(self):
         self.write_study(
             f'command = "modes"\ndesigns = ["{VERIFICATION / "beam_inside.toml"}"]\nmeasures = ["program/modes/1/x"]\n'
@@ -151,6 +182,16 @@ class RandomRoads(StudyCase):
         self.study()
         self.assertEqual([row["error"] for row in self.read_table()],
                          ["", "random_road: error: 'class', got 'Z', expected A to H"])  # fmt: skip
+
+    def test_a_class_with_another_exponent_and_a_number_beyond_all_are_rows_with_the_reason(self):
+        for settings, what in (("exponent = 3.0", "'exponent', got 3, expected 2, that of an ISO 8608 class"),
+                               (f"ease = 1{400 * '0'}", "expected a finite number")):  # fmt: skip
+            self.write_study(
+                f'measures = ["program/steps"]\nset.duration = 0.2\n[random_road]\nclass = "C"\n{settings}\n'
+                'length = 20.0\nspacing = 0.05\n[[parameters]]\nkey = "random_road.seed"\nvalues = [1]\n'
+            )
+            self.study()
+            self.assertIn(what, self.read_table()[0]["error"])
 
     def test_roads_that_cannot_be_made_for_one_reason_are_rows_of_their_own(self):
         self.write_study(

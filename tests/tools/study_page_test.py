@@ -12,6 +12,14 @@ from browser import Browser
 from report_page_case import ALL_CONTROLS, MODELS, PICTURES, SIZES
 from tool_test_case import TOOLS, make_class_folder, run_program
 
+from sprung_tools.runs.measures import Measure
+from sprung_tools.study.execution import Finished
+from sprung_tools.study.kept_rows import Row
+from sprung_tools.study.one_run import Task
+from sprung_tools.study.page import make_study_page
+from sprung_tools.study.study_file import read_study
+from sprung_tools.study.table import make_measure_columns
+
 STUDY = f"""
 run = "{MODELS}/examples/quarter_car_run.toml"
 measures = ["suspensions/suspension/compression", "tyres/tyre/dynamic_load_rms", "program/steps"]
@@ -263,6 +271,19 @@ class StudyPage(unittest.TestCase):
         self.assertAlmostEqual(float(shown) / min(self.column("tyres/tyre/dynamic_load_rms")), 1.0, places=4)
         units = page.evaluate("['N', 'N m', 'Pa', 'rad', 'm', 'm/s^1.75'].map((unit) => titleOf({name: 'a', unit}))")
         self.assertEqual(units, ["a, N", "a, N m", "a, Pa", "a, rad", "a, m", "a, m/s¹·⁷⁵"])
+
+    def test_a_page_of_very_many_runs_is_drawn(self):
+        """More than a browser takes as arguments of one function."""
+        study = read_study(self.folder / "damper <b>.toml")
+        study = study._replace(parameters=study.parameters[1:2])
+        shares = np.random.default_rng(1).random(200_000).tolist()
+        rows = [Row(str(k), 0, "", True, (), {"program/steps": Measure(one, "")}, 0.1) for k, one in enumerate(shares)]
+        finished = Finished(study, [(one,) for one in shares], [Task("", (), (), "")] * len(rows), rows, len(rows), 0)
+        (self.folder / "many").mkdir()
+        page = make_study_page(finished, make_measure_columns(finished), [])
+        (self.folder / "many/study.html").write_text(page, encoding="utf-8")
+        ends = self.open(folder="many").evaluate("columns.map((one) => [one.low, one.high])")
+        np.testing.assert_allclose(ends, [[min(shares), max(shares)]] * 2, rtol=1e-8)
 
     def test_the_scatter_says_what_its_colours_mean(self):
         page = self.open()

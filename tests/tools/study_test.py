@@ -117,6 +117,11 @@ class Rows(StudyCase):
         (self.folder / "road.txt").write_text("0 0\n1 0.2\n2 0\n", encoding="utf-8")
         self.assertIn("1 runs: 1 made, 0 kept from before", self.study().stdout)
 
+    def test_of_points_that_are_the_same_one_run_is_made(self):
+        self.write_study(f'{self.MEASURES}{HEIGHT}values = [0.01, 0.01, 0.02]\n')
+        self.assertIn("3 runs: 2 made, 0 kept from before, 1 the same as others, 0 failed", self.study().stdout)
+        self.assertIn("3 runs: 0 made, 3 kept from before, 0 failed", self.study().stdout)
+
     def test_a_value_may_be_a_whole_table_which_replaces_the_one_of_the_run_file(self):
         flat, ramp = '{ shape = "flat" }', '{ shape = "ramp", start = 0.5, length = 1.0, height = 0.1 }'
         self.write_study('measures = ["tyres/tyre/dynamic_load_rms"]\nset.duration = 0.5\n'

@@ -4,12 +4,16 @@ command of a cluster."""
 import os
 import re
 import select
+import shlex
 import signal
 import subprocess
 import unittest
 
-from study_case import DYNAMICS, HEIGHT, StudyCase
+from study_case import DYNAMICS, EXAMPLES, HEIGHT, StudyCase
 from tool_test_case import TOOLS, run_program
+
+from sprung_tools.study.kept_rows import KeptRows, Row, keep_row
+from sprung_tools.study.workflow import collect_rows
 
 SNAKEMAKE = ("/usr/bin/snakemake", "--directory", "out", "--snakefile", "out/Snakefile")
 README = (TOOLS / "README.md").read_text(encoding="utf-8")
@@ -58,6 +62,31 @@ class Workflow(StudyCase):
         for part in ("1", "2"):
             rows = (self.folder / "out/parts" / part / "rows.jsonl").read_text(encoding="utf-8").splitlines()
             self.assertEqual(len(rows), 2)
+        self.check_table()
+
+    def test_more_values_or_a_changed_vehicle_are_made_and_what_is_done_is_not(self):
+        self.snakemake("--cores", "2")
+        self.snakemake("--cores", "2")
+        self.assertEqual(self.count_calls(), ["0.01", "0.02", "0.03", "0.04"])
+        study = self.folder / "study.toml"
+        changed = study.read_text(encoding="utf-8").replace("0.04]", "0.04, 0.05, 0.06]")
+        study.write_text(changed, encoding="utf-8")
+        os.utime(study, (1e9, 1e9))  # as a file that is copied with its time
+        self.assert_succeeds(self.study("--workflow", "2", **self.environment))
+        self.snakemake("--cores", "2")
+        self.assertEqual(self.count_calls(), ["0.01", "0.02", "0.03", "0.04", "0.05", "0.06"])
+        self.check_table()
+        for name in ("quarter_car.toml", "quarter_car_run.toml"):
+            text = (EXAMPLES / name).read_text(encoding="utf-8")
+            (self.folder / name).write_text(text, encoding="utf-8")
+        self.write_study(changed.partition("\n")[2], run="quarter_car_run.toml")
+        self.assert_succeeds(self.study("--workflow", "2", **self.environment))
+        self.snakemake("--cores", "2")
+        vehicle = self.folder / "quarter_car.toml"
+        vehicle.write_text(vehicle.read_text(encoding="utf-8").replace("300.0", "310.0"), encoding="utf-8")
+        (self.folder / "calls").unlink()
+        self.snakemake("--cores", "2")  # without --workflow again
+        self.assertEqual(self.count_calls(), ["0.01", "0.02", "0.03", "0.04", "0.05", "0.06"])
         self.check_table()
 
     def test_a_workflow_that_is_killed_goes_on_where_it_was(self):
@@ -110,6 +139,34 @@ class Parts(StudyCase):
         self.assertIn("1 runs: 1 made", self.study("--part", "2/2").stdout)
         self.assertFalse((self.folder / "out/table.csv").exists())
         self.assertIn("3 runs: 0 made, 3 kept from before", self.study("--collect").stdout)
+
+    def test_a_good_row_of_a_part_takes_the_place_of_a_failed_one(self):
+        bad = Row("abc", 3, "no convergence", False, (), {}, 0.1)
+        good = bad._replace(exit_code=0, error="", converged=True)
+        for number, steps in enumerate((  # what the parts hold, each time they are collected; the row then
+            [([[bad, good]], good)], [([[bad], [good]], good)], [([[good], [bad]], good)],
+            [([[bad]], bad), ([[bad, good]], good)], [([[good]], good), ([[good, bad]], good)],
+        )):  # fmt: skip
+            study = self.folder / str(number)
+            for parts, expected in steps:
+                for part, rows in enumerate(parts, start=1):
+                    path = study / "parts" / str(part) / "rows.jsonl"
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                    path.write_text("", encoding="utf-8")
+                    for row in rows:
+                        keep_row(path, row)
+                with self.subTest(number), KeptRows(study) as kept:
+                    collect_rows(kept, study)
+                    self.assertEqual(kept.rows, {"abc": expected})
+                with KeptRows(study) as kept:  # from its file
+                    self.assertEqual(kept.rows, {"abc": expected})
+
+    def test_the_command_that_is_printed_is_one_for_a_shell(self):
+        self.write_study(f'measures = ["program/steps"]\n{HEIGHT}values = [0.01, 0.02]')
+        process = self.run_tool("study", "study.toml", "-o", "my study", "--workflow", "2")
+        *_, line = process.stdout.splitlines()
+        words = ["snakemake", "--directory", "my study", "--snakefile", "my study/Snakefile", "--cores", "all"]
+        self.assertEqual(shlex.split(line), [*words, "--rerun-incomplete"])
 
     def test_a_study_has_no_more_parts_than_runs(self):
         self.write_study(f'measures = ["program/steps"]\n{HEIGHT}values = [0.01, 0.02]')

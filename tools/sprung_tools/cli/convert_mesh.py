@@ -1,7 +1,7 @@
-"""Reads the frame in another program's mesh file (Abaqus, Nastran, MED, VTK, gmsh and the other formats of meshio) and
-writes it as a gmsh 4.1 mesh: every line element, every set of elements as a physical curve, every set of nodes as
-physical points. Beside OUT.msh it writes a starter design OUT.toml with the sections, materials and masses that the
-source gives; an OUT.toml that is already there stays as it is."""
+"""Reads the frame in another program's mesh file (Abaqus, Nastran, MED, Code_Aster's .mail, VTK, gmsh and the other
+formats of meshio) and writes it as a gmsh 4.1 mesh: every line element, every set of elements as a physical curve,
+every set of nodes as physical points. Beside OUT.msh it writes a starter design OUT.toml with the sections, materials
+and masses that the source gives; an OUT.toml that is already there stays as it is."""
 
 import math
 import os

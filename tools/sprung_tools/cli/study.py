@@ -9,6 +9,7 @@ runs that are missing. A run that fails is a row with its error.
 With --workflow it makes no runs, but writes a Snakefile with parts of the study as jobs, for many machines."""
 
 import argparse
+import shlex
 import sys
 from pathlib import Path
 
@@ -98,20 +99,24 @@ def format_errors(finished: Finished) -> list[str]:
 def write_workflow(study: Study, folder: Path, programs: str | None, parts: int) -> None:
     """Writes the Snakefile of a study."""
     number = min(parts, len(make_points(study)))
-    find_programs(programs)  # which the jobs need
     (folder / PARTS).mkdir(parents=True, exist_ok=True)  # Slurm writes what jobs say there, and ends those it cannot
     command = Path(sys.argv[0]).resolve()
-    write_whole(folder / SNAKEFILE, format_snakefile(command, Path(study.file.path).resolve(), programs, number))
+    text = format_snakefile(command, study, programs, find_programs(programs), number)
+    write_whole(folder / SNAKEFILE, text)
     print(f"{folder / SNAKEFILE}: {len(make_points(study))} runs in {number} parts")
-    print(f"snakemake --directory {folder} --snakefile {folder / SNAKEFILE} --cores all --rerun-incomplete")
+    words = ("snakemake", "--directory", str(folder), "--snakefile", str(folder / SNAKEFILE), "--cores", "all")
+    print(shlex.join((*words, "--rerun-incomplete")))
 
 
 def summarise(finished: Finished) -> str:
     """How many runs there are, and how they ended."""
     failed = sum(row.has_failed for row in finished.rows)
+    again = len(finished.rows) - finished.made - finished.kept
+    repeated = f", {again} the same as others" if again else ""
     doubtful = sum(row.exit_code == CHECK_FAILED for row in finished.rows)
     more = f", {doubtful} with a failed check" if doubtful else ""
-    return f"{len(finished.rows)} runs: {finished.made} made, {finished.kept} kept from before, {failed} failed{more}"
+    made = f"{finished.made} made, {finished.kept} kept from before{repeated}"
+    return f"{len(finished.rows)} runs: {made}, {failed} failed{more}"
 
 
 def main() -> int:

@@ -215,7 +215,7 @@ class ResultsFile:
         is_left_out = is_motion or not self.file.names(f"{group}/{name}")
         if self.file.has_group(f"model/resolved/{owner}/{name}") and is_left_out:
             return self.file.fail(self.file.describe_missing(dataset))
-        folder = dataset
+        folder = quantity.strip("/") if self.file.has_group(quantity.strip("/")) else dataset
         while folder and not self.file.has_group(folder):
             folder = folder.rpartition("/")[0]
         there = ", ".join(self.names(folder)) or "nothing"

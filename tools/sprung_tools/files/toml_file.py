@@ -36,7 +36,7 @@ class TomlFile:
             raise InputError(f"{path}: error: is not UTF-8 text (byte {error.start})") from error
         try:
             self.data: dict[str, Any] = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
+        except ValueError as error:  # of syntax, or of a whole number with thousands of digits
             raise InputError(f"{path}:{describe_syntax(str(error), text)}") from error
         self._statements = find_places(text)
 

@@ -1,11 +1,33 @@
 """Values as TOML text, for `--set` and for files that are made from others."""
 
 import json
+import re
 from typing import Any
 
 import numpy as np
 
 from sprung_tools.files.errors import InputError
+
+# A part of a key as `--set` takes it: in quotes it may hold dots.
+KEY_PART = r"""\s*(?:"[^"]*"|'[^']*'|[^"'.=\s](?:[^"'.=]*[^"'.=\s])?)\s*"""
+
+
+def split_key(key: str) -> list[str]:
+    """The parts of a key between its dots, as they are written; none if it is no key."""
+    if not re.fullmatch(rf"{KEY_PART}(?:\.{KEY_PART})*", key):
+        return []
+    return [part.strip() for part in re.findall(KEY_PART, key)]
+
+
+def strip_quotes(part: str) -> str:
+    """The name that a part of a key stands for."""
+    return part[1:-1] if part[0] in "\"'" else part
+
+
+def cut_key(key: str, *names: str) -> str:
+    """What is behind the first parts of a key; empty if these have other names, or nothing is behind them."""
+    parts = split_key(key)
+    return ".".join(parts[len(names) :]) if tuple(map(strip_quotes, parts[: len(names)])) == names else ""
 
 
 def format_value(value: Any) -> str:

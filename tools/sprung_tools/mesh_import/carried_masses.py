@@ -115,8 +115,11 @@ def merge_masses(masses: Sequence[PointMass]) -> list[PointMass]:
     merged: dict[int, PointMass] = {}
     for one in masses:
         before = merged.get(one.node)
-        if before is None or before.inertia is None or one.inertia is None:
+        if before is None:
             merged[one.node] = one._replace(text="members across")
-        else:
-            merged[one.node] = before._replace(mass=before.mass + one.mass, inertia=before.inertia + one.inertia)
+            continue
+        inertia = before.inertia if one.inertia is None else one.inertia
+        if before.inertia is not None and one.inertia is not None:
+            inertia = before.inertia + one.inertia
+        merged[one.node] = before._replace(mass=before.mass + one.mass, inertia=inertia)
     return list(merged.values())

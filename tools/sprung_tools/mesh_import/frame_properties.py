@@ -18,7 +18,8 @@ class Material(NamedTuple):
 
 
 class Shape(NamedTuple):
-    """Integrals over a section about its centroid. h is the coordinate along its height, w along its width."""
+    """Integrals over a section about its centroid, and its outline. h is the coordinate along its height, w along its
+    width. Without corners and half-axes the outline is not known."""
 
     area: float
     hh: float  # ∫h² dA
@@ -26,6 +27,8 @@ class Shape(NamedTuple):
     hw: float = 0.0  # ∫h w dA
     w: float = 0.0  # where the centroid is, from the origin that the section's description has
     h: float = 0.0
+    corners: tuple[tuple[float, float], ...] = ()  # (w, h) about the centroid; their convex hull holds the section
+    half_axes: tuple[float, float] = (0.0, 0.0)  # along w and h, of a round section
 
 
 def are_possible(hh: float, ww: float, hw: float) -> bool:

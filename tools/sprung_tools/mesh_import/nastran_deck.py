@@ -12,7 +12,7 @@ import numpy as np
 from sprung_tools.files.array_types import Floats
 from sprung_tools.mesh_import import nastran_coordinates, nastran_sections
 from sprung_tools.mesh_import.frame_properties import Material, Section
-from sprung_tools.mesh_import.line_mesh import MOST_MEMBERS, LineMesh, pick_members, shorten
+from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER, MOST_MEMBERS, LineMesh, pick_members, shorten
 from sprung_tools.mesh_import.nastran_cards import Card, read_cards
 from sprung_tools.mesh_import.nastran_coordinates import CoordinateSystems
 
@@ -161,7 +161,7 @@ class Deck:
         begin = self.find_node(card, ends[0])
         text = source.field(4)
         if text.isdecimal() and not source.field(5) and not source.field(6):
-            return self.find_node(source, int(text)) - begin
+            return self.find_node(source, source.integer(4, "node")) - begin
         vector = [source.real(place, "number") for place in (4, 5, 6)]
         default = self.defaults.get(card.name)
         frames = card.field(7) or (default.field(7) if default else "")  # OFFT: of the orientation, and of both offsets
@@ -271,16 +271,21 @@ def read_members(card: Card) -> Iterator[int]:
     texts = [text.upper() for text in card.fields[1:] if text]
     place = 0
     while place < len(texts):
+        first = read_member(card, texts[place])
         if texts[place + 1 : place + 2] == ["THRU"] and place + 2 < len(texts):
-            if not (texts[place].isdecimal() and texts[place + 2].isdecimal()):
-                card.fail(f"'{texts[place]} THRU {texts[place + 2]}' is not a range")
-            members = range(int(texts[place]), int(texts[place + 2]) + 1)
+            members = range(first, read_member(card, texts[place + 2]) + 1)
             if not 0 < len(members) <= MOST_MEMBERS:
                 card.fail(f"'{texts[place]} THRU {texts[place + 2]}' is not a range of 1 to {MOST_MEMBERS} numbers")
             yield from members
             place += 3
             continue
-        if not texts[place].isdecimal():
-            card.fail(f"'{texts[place]}' is not a node's number")
-        yield int(texts[place])
+        yield first
         place += 1
+
+
+def read_member(card: Card, text: str) -> int:
+    """The number of a node in a SET1 card."""
+    digits = text.lstrip("0") or "0"
+    if not (text.isascii() and text.isdecimal()) or len(digits) > len(str(LARGEST_NUMBER)):
+        card.fail(f"'{text}' is not a node's number, 0 to {LARGEST_NUMBER}")
+    return int(digits)

@@ -31,6 +31,10 @@ def combine(parts: Sequence[Rectangle]) -> Shape:
         raise ValueError(f"has the area {area:g}")
     w0 = sum(one * part.w for one, part in zip(areas, parts)) / area
     h0 = sum(one * part.h for one, part in zip(areas, parts)) / area
+    corners = [
+        (part.w - w0 + side * part.width / 2.0, part.h - h0 + end * part.height / 2.0)
+        for part in parts if part.sign > 0.0 for side in (-1.0, 1.0) for end in (-1.0, 1.0)
+    ]  # fmt: skip
     return Shape(
         area,
         sum(one * (part.height**2 / 12.0 + (part.h - h0) ** 2) for one, part in zip(areas, parts)),
@@ -38,6 +42,7 @@ def combine(parts: Sequence[Rectangle]) -> Shape:
         sum(one * (part.h - h0) * (part.w - w0) for one, part in zip(areas, parts)),
         w0,
         h0,
+        tuple(corners),
     )
 
 
@@ -81,7 +86,10 @@ def make_pair(width: float, height: float, side_width: float, side_height: float
 def make_angle(width: float, height: float, lying: float, upright: float) -> Shape:
     """An L with its corner at the left of the bottom: whole width and height, thickness of both legs."""
     hole = Rectangle(width - upright, height - lying, upright / 2.0, lying / 2.0, -1.0)
-    return combine([Rectangle(width, height), hole])
+    whole = combine([Rectangle(width, height), hole])
+    left, low = -width / 2.0 - whole.w, -height / 2.0 - whole.h
+    ends = ((0.0, 0.0), (width, 0.0), (width, lying), (upright, height), (0.0, height))
+    return whole._replace(corners=tuple((left + w, low + h) for w, h in ends))
 
 
 def make_z(flange: float, web: float, inner: float, height: float) -> Shape:
@@ -126,12 +134,12 @@ def make_double_box(
 
 def mirror(shape: Shape) -> Shape:
     """The shape with its width in the opposite direction."""
-    return shape._replace(hw=-shape.hw, w=-shape.w)
+    return shape._replace(hw=-shape.hw, w=-shape.w, corners=tuple((-w, h) for w, h in shape.corners))
 
 
 def make_walls(points: Sequence[tuple[float, float]], walls: Sequence[float]) -> Shape:
-    """Thin straight walls from point to point (w, h). A wall has no second moment about its own middle line. ValueError
-    if a thickness is negative or there is no area."""
+    """Thin straight walls from point to point (w, h). A wall has no second moment about its own middle line; its
+    corners are half its thickness away from this line. ValueError if a thickness is negative or there is no area."""
     if not all(0.0 <= wall < LARGEST for wall in walls) or not all(abs(x) < LARGEST for point in points for x in point):
         raise ValueError(f"has walls of {', '.join(f'{wall:g}' for wall in walls)}")
     pairs = list(zip(points, points[1:]))
@@ -144,6 +152,12 @@ def make_walls(points: Sequence[tuple[float, float]], walls: Sequence[float]) ->
     w0 = sum(one * w for one, (w, _) in zip(areas, middles)) / area
     h0 = sum(one * h for one, (_, h) in zip(areas, middles)) / area
     each = [(one, *side, w - w0, h - h0) for one, side, (w, h) in zip(areas, sides, middles)]
+    away = [wall / 2.0 / (math.hypot(*side) or 1.0) for wall, side in zip(walls, sides)]
+    corners = [
+        (w - w0 - sign * half * dh, h - h0 + sign * half * dw)
+        for pair, (dw, dh), half, one in zip(pairs, sides, away, areas) if one > 0.0
+        for w, h in pair for sign in (-1.0, 1.0)
+    ]  # fmt: skip
     return Shape(
         area,
         sum(one * (dh * dh / 12.0 + h * h) for one, _, dh, _, h in each),
@@ -151,6 +165,7 @@ def make_walls(points: Sequence[tuple[float, float]], walls: Sequence[float]) ->
         sum(one * (dh * dw / 12.0 + h * w) for one, dw, dh, w, h in each),
         w0,
         h0,
+        tuple(corners),
     )
 
 
@@ -159,11 +174,14 @@ def make_trapezoid(bottom: float, height: float, top: float) -> Shape:
     if not all(0.0 < side < LARGEST for side in (bottom, height, top)):
         raise ValueError(f"has the sides {bottom:g}, {height:g} and {top:g}")
     both = bottom + top
+    centre = height * (bottom + 2.0 * top) / (3.0 * both)
+    ends = ((bottom / 2.0, -centre), (top / 2.0, height - centre))
     return Shape(
         both * height / 2.0,
         height**3 * (bottom**2 + 4.0 * bottom * top + top**2) / (36.0 * both),
         height * both * (bottom**2 + top**2) / 48.0,
-        h=height * (bottom + 2.0 * top) / (3.0 * both),
+        h=centre,
+        corners=tuple((sign * w, h) for w, h in ends for sign in (-1.0, 1.0)),
     )
 
 
@@ -173,14 +191,17 @@ def make_hexagon(width: float, height: float, slant: float) -> Shape:
     if not (0.0 < slant < width / 2.0 < LARGEST and 0.0 < height < LARGEST):
         raise ValueError(f"has the width {width:g}, points of {slant:g} and the height {height:g}")
     half, flat = height / 2.0, width - 2.0 * slant  # two trapezoids with a common base
+    ends = ((width / 2.0, 0.0), (flat / 2.0, half), (flat / 2.0, -half))
     return Shape(
-        half * (width + flat), half**3 * (width + 3.0 * flat) / 6.0, half * (width + flat) * (width**2 + flat**2) / 24.0
-    )
+        half * (width + flat), half**3 * (width + 3.0 * flat) / 6.0,
+        half * (width + flat) * (width**2 + flat**2) / 24.0,
+        corners=tuple((sign * w, h) for w, h in ends for sign in (-1.0, 1.0)),
+    )  # fmt: skip
 
 
 def make_hexagonal_tube(radius: float, wall: float) -> Shape:
-    """A regular hexagon with a wall; radius: of the circle through its outer corners. ValueError if the wall is too
-    thick."""
+    """A regular hexagon with a wall; radius: of the circle through its outer corners. Where these lie on the circle is
+    not known. ValueError if the wall is too thick."""
     inner = radius - 2.0 * wall / math.sqrt(3.0)
     if not (wall > 0.0 and 0.0 < inner < radius < LARGEST):
         raise ValueError(f"has the radius {radius:g} and the wall {wall:g}")
@@ -190,7 +211,8 @@ def make_hexagonal_tube(radius: float, wall: float) -> Shape:
 
 def turn(shape: Shape) -> Shape:
     """The shape turned by a quarter: its width becomes its height."""
-    return Shape(shape.area, shape.ww, shape.hh, -shape.hw)
+    corners = tuple((-h, w) for w, h in shape.corners)
+    return Shape(shape.area, shape.ww, shape.hh, -shape.hw, corners=corners, half_axes=shape.half_axes[::-1])
 
 
 def make_tube(outer: float, inner: float = 0.0) -> Shape:
@@ -198,7 +220,7 @@ def make_tube(outer: float, inner: float = 0.0) -> Shape:
     if not 0.0 <= inner < outer < LARGEST:
         raise ValueError(f"has the radii {outer:g} and {inner:g}")
     moment = math.pi * (outer**4 - inner**4) / 4.0
-    return Shape(math.pi * (outer**2 - inner**2), moment, moment)
+    return Shape(math.pi * (outer**2 - inner**2), moment, moment, half_axes=(outer, outer))
 
 
 def make_ellipse(width: float, height: float) -> Shape:
@@ -206,4 +228,4 @@ def make_ellipse(width: float, height: float) -> Shape:
     if not (0.0 < width < LARGEST and 0.0 < height < LARGEST):
         raise ValueError(f"has the axes {width:g} and {height:g}")
     area = math.pi * width * height / 4.0
-    return Shape(area, area * height**2 / 16.0, area * width**2 / 16.0)
+    return Shape(area, area * height**2 / 16.0, area * width**2 / 16.0, half_axes=(width / 2.0, height / 2.0))

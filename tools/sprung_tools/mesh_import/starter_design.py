@@ -120,6 +120,8 @@ def format_section(curve: str, section: PlaneSection, mesh: LineMesh, units: Uni
     area = None if section.area is None else units.length**2 * section.area
     moment = None if section.second_moment is None else units.length**4 * section.second_moment
     lines += [format_number("area", area, "m²"), format_number("second_moment", moment, "m⁴, for bending in the plane")]
+    if section.section_modulus is not None:
+        lines.append(format_number("section_modulus", units.length**3 * section.section_modulus, "m³"))
     density = mesh.materials[section.material].density if known else None
     if section.extra_mass:
         lines += format_mass_per_length(area, density, units.mass_per_length * section.extra_mass, units)

@@ -25,8 +25,13 @@ def write_collection(path: str, entries: Sequence[tuple[float, str]]) -> None:
 
 
 def check_target(path: str, stem: str) -> None:
-    """Throws InputError if the folder is there and holds other files than this tool writes: the tool would remove
-    them."""
+    """Throws InputError if there is no folder to write in, or if the folder of the files is there and is a link, or
+    holds other files than this tool writes: the tool would remove them."""
+    around = os.path.dirname(path)
+    if around and not os.path.isdir(around):
+        raise InputError(f"{path}: error: there is no folder '{around}'")
+    if os.path.islink(stem):
+        raise InputError(f"{path}: error: '{stem}' is a link, which the tool does not replace; choose another name")
     if not os.path.lexists(stem):
         return
     strange = [stem] if not os.path.isdir(stem) else [name for name in os.listdir(stem) if not OURS.fullmatch(name)]
@@ -55,7 +60,7 @@ def write_folder(path: str, write_files: Callable[[str], list[tuple[float, str]]
         os.rename(unfinished, stem)
         os.replace(os.path.join(stem, LIST), path)
     except OSError as error:
-        raise InputError(f"{path}: error: cannot write the files ({error.strerror})") from error
+        raise InputError(f"{path}: error: cannot write the files ({error.strerror or error})") from error
     finally:
         shutil.rmtree(unfinished, ignore_errors=True)
     return len(entries)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import TomlFile
-from sprung_tools.files.toml_text import format_document
+from sprung_tools.files.toml_text import format_document, split_key, strip_quotes
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.programs.calls import GOOD, call
 
@@ -69,10 +69,11 @@ def take_files(data: Table, design: Path) -> tuple[dict[str, Path], bool]:
 
 
 def set_value(table: Table, path: str, value: Any, design: Path) -> None:
-    """Changes a value of a design. path: keys with dots between; an entry of a list goes by its number from 0.
+    """Changes a value of a design. path: keys with dots between, in quotes where they hold dots; an entry of a list
+    goes by its number from 0.
 
     Tables on the way that are not there are made. InputError if the path leads through something else."""
-    *way, last = path.split(".")
+    *way, last = map(strip_quotes, split_key(path))
     inside: Any = table
     for key in way:
         inside = inside.setdefault(key, {}) if isinstance(inside, dict) else find_entry(inside, key, path, design)

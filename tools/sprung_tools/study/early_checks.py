@@ -9,6 +9,7 @@ from concurrent.futures import Executor
 from typing import TypeVar
 
 from sprung_tools.files.errors import InputError
+from sprung_tools.files.toml_text import cut_key, split_key, strip_quotes
 from sprung_tools.programs.calls import BAD_INPUT, Outcome, call, make_command
 from sprung_tools.programs.finding import Programs
 from sprung_tools.study.designs import reduce_variant
@@ -54,13 +55,10 @@ def check_designs(study: Study, drafts: Sequence[Draft], programs: Programs, poo
 
 def fail_at_design(study: Study, name: str, what: str) -> InputError:
     """The error of a design, at the key of the study file that it names, else where the design stands."""
-    prefix = f"{DESIGN}{name}."
     words = {word.rpartition(".")[2] for word in re.findall(r"'([^']+)'", what)[:1]}
-    for key in (key for parameter in study.parameters for key in parameter.keys if key.startswith(prefix)):
-        if words & set(key.split(".")):
-            return fail_at_key(study, key, what)
-    for key in flatten_settings(study.overrides):
-        if key.startswith(prefix) and words & set(key.split(".")):
+    keys = [key for parameter in study.parameters for key in parameter.keys]
+    for key in (*keys, *flatten_settings(study.overrides)):
+        if cut_key(key, DESIGN, name) and words & set(map(strip_quotes, split_key(key))):
             return fail_at_key(study, key, what)
     return study.file.fail(("designs",), f"{study.designs[name].name}: {what}", fragment=study.designs[name].name)
 

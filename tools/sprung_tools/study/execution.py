@@ -27,7 +27,7 @@ SCRATCH = "under_way"  # folder of what the runs under way write
 
 class Finished(NamedTuple):
     """A study whose runs are made: its points, their tasks and rows; how many runs were made now, and how many rows
-    were there before."""
+    were there before. Of points that are the same one run is made."""
 
     study: Study
     points: list[Point]
@@ -75,7 +75,8 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
             with Progress("runs", len(missing)) as progress:
                 make_runs(study, list(missing.values()), setting, pool, options.jobs, kept, progress)
         rows = [kept.rows[task.hash] for task in tasks]
-    return Finished(study, points, tasks, rows, len(missing), len(tasks) - len(missing))
+    kept_before = sum(task.hash not in missing for task in tasks)
+    return Finished(study, points, tasks, rows, len(missing), kept_before)
 
 
 def make_tasks(

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import TomlFile
+from sprung_tools.files.toml_text import cut_key, split_key, strip_quotes
 from sprung_tools.programs.calls import format_overrides
 from sprung_tools.programs.finding import Programs
 from sprung_tools.study.designs import Variant, hash_parts, make_variant, reduce_variant
@@ -49,12 +50,12 @@ class Planner:
         for parameter, value in zip(self.study.parameters, point):
             changed |= parameter.settings(value)
         all_changes = json.dumps(changed, default=str, sort_keys=True)
-        road_changes = take_prefix(changed, ROAD) if self.study.random_road else {}
+        road_changes = take_inside(changed, ROAD) if self.study.random_road else {}
         variants: dict[str, Variant] = {}
         road, road_hash, problem = None, "", ""
         try:
             for name, design in self.study.designs.items():
-                variants[name] = self._make_variant(design, take_prefix(changed, f"{DESIGN}{name}."))
+                variants[name] = self._make_variant(design, take_inside(changed, DESIGN, name))
             if self.study.random_road:
                 road, road_hash = self._make_road(self.study.random_road | road_changes)
         except InputError as error:
@@ -106,8 +107,10 @@ class Planner:
     def _list_superelements(self, vehicle: Path, draft: Draft) -> list[Path]:
         """The files of the superelements that a vehicle names: of the study's designs, else of its folder. A file that
         is not there is left for the program to miss."""
-        names = set(find_superelements(self._read_vehicle(vehicle).get("bodies", {})))
-        names |= {str(one) for key, one in draft.changed.items() if key.endswith(".superelement")}
+        names = set(find_superelements(self._read_vehicle(vehicle).get("bodies")))
+        for key, value in draft.changed.items():
+            *_, last = ("", *map(strip_quotes, split_key(key)))
+            names.update(find_superelements({last: value}))
         files = []
         for name in sorted(names):
             if name in draft.variants:
@@ -129,7 +132,7 @@ class Planner:
         return self._hashes[path]
 
 
-def calc_hash(path: Path) -> str:
+def calc_hash(path: str | Path) -> str:
     """The SHA-256 of a file; empty if there is none."""
     if not os.path.isfile(path):
         return ""
@@ -160,10 +163,10 @@ def raise_error(value: Any) -> Any:
     return value
 
 
-def take_prefix(settings: dict[str, Any], prefix: str) -> dict[str, Any]:
-    """Takes the settings whose keys begin with a prefix, without it."""
-    found = [key for key in settings if key.startswith(prefix)]
-    return {key.removeprefix(prefix): settings.pop(key) for key in found}
+def take_inside(settings: dict[str, Any], *names: str) -> dict[str, Any]:
+    """Takes the settings whose keys begin with parts of these names, without them."""
+    found = {key: rest for key in settings if (rest := cut_key(key, *names))}
+    return {rest: settings.pop(key) for key, rest in found.items()}
 
 
 def flatten_settings(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -185,8 +188,10 @@ def list_texts(value: Any) -> list[str]:
     return [text for part in parts for text in list_texts(part)]
 
 
-def find_superelements(bodies: Any) -> list[str]:
-    """The superelements that the bodies of a vehicle file name."""
-    tables = bodies.values() if isinstance(bodies, dict) else ()
-    names = (one.get("superelement") for one in tables if isinstance(one, dict))
-    return [name for name in names if isinstance(name, str)]
+def find_superelements(table: Any) -> list[str]:
+    """The superelements that a table of a vehicle file names, or the tables in it."""
+    if not isinstance(table, dict):
+        return []
+    name = table.get("superelement")
+    inside = [found for one in table.values() for found in find_superelements(one)]
+    return [name, *inside] if isinstance(name, str) else inside

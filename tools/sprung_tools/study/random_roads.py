@@ -1,5 +1,6 @@
 """Random roads of a study: each recipe with its seed becomes one road table, made as tools/make_road.py makes it."""
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -15,6 +16,8 @@ from sprung_tools.signals.road_profile import (
     make_profile,
 )
 from sprung_tools.study.designs import hash_parts
+
+ISO_EXPONENT = 2.0
 
 
 class RandomRoad(NamedTuple):
@@ -34,6 +37,10 @@ def read_road(settings: Mapping[str, Any]) -> RandomRoad:
     iso_class = values.pop("class", None)
     if iso_class is not None and iso_class not in tuple(ISO_CLASSES):
         raise InputError(f"random_road: error: 'class', got {iso_class!r}, expected A to H")
+    exponent = take_number(values, "exponent", ISO_EXPONENT)
+    if iso_class is not None and exponent != ISO_EXPONENT:
+        expected = f"expected {ISO_EXPONENT:g}, that of an ISO 8608 class"
+        raise InputError(f"random_road: error: 'exponent', got {exponent:g}, {expected}")
     band = values.pop("band", list(ISO_BAND))
     if not isinstance(band, list) or len(band) != 2:
         raise InputError(f"random_road: error: 'band', got {band!r}, expected [lowest, highest] (1/m)")
@@ -43,7 +50,7 @@ def read_road(settings: Mapping[str, Any]) -> RandomRoad:
         raise InputError(f"random_road: error: needs one of class, rms, density; got {', '.join(levels) or 'none'}")
     recipe = Recipe(
         length=take_number(values, "length"), spacing=take_number(values, "spacing"), band=(low, high),
-        exponent=take_number(values, "exponent", 2.0), rms=take_number(values, "rms", 0.0),
+        exponent=exponent, rms=take_number(values, "rms", 0.0),
         density=calc_iso_density(iso_class) if iso_class else take_number(values, "density", 0.0),
         ease=take_number(values, "ease", 0.0), seed=seed,
     )  # fmt: skip
@@ -53,8 +60,8 @@ def read_road(settings: Mapping[str, Any]) -> RandomRoad:
 def take_number(values: dict[str, Any], key: str, default: float | None = None) -> float:
     """Takes a number from settings. InputError if it is none, or is missing without a default."""
     value = values.pop(key, default)
-    if not isinstance(value, (int, float)) or isinstance(value, bool):
-        raise InputError(f"random_road: error: '{key}', got {value!r}, expected a number")
+    if not isinstance(value, (int, float)) or isinstance(value, bool) or not abs(value) <= sys.float_info.max:
+        raise InputError(f"random_road: error: '{key}', got {value!r}, expected a finite number")
     return float(value)
 
 

@@ -2,18 +2,20 @@
 "Studies"."""
 
 import math
+import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import Place, TomlFile
+from sprung_tools.files.toml_text import cut_key, format_key, split_key
 
 GRID, LIST, LATIN, SOBOL = "grid", "list", "latin-hypercube", "sobol"
 METHODS = (GRID, LIST, LATIN, SOBOL)
 COMMANDS = ("run", "response", "modes", "equilibrium")
 LINEAR, LOGARITHMIC = "linear", "logarithmic"
-DESIGN, ROAD = "design.", "random_road."  # what the keys of designs and of the random road begin with
+DESIGN, ROAD = "design", "random_road"  # first parts of the keys of designs and of the random road
 ROOT_KEYS = ("run", "command", "superelements", "designs", "set", "measures", "sampling", "random_road", "parameters")
 SAMPLING_KEYS = ("method", "number", "seed")
 PARAMETER_KEYS = ("name", "key", "keys", "values", "from", "to", "number", "spacing", "crossed")
@@ -136,15 +138,15 @@ class Reader:
 
 
 def is_number(value: Any) -> bool:
-    """Whether a value is a finite number."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    """Whether a value is a finite number, which a whole one beyond the range of floating point is not."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
 
 
 def is_finite(value: Any) -> bool:
     """Whether all numbers in a value, a list or a table are finite."""
     if isinstance(value, (dict, list)):
         return all(map(is_finite, value.values() if isinstance(value, dict) else value))
-    return not isinstance(value, float) or math.isfinite(value)
+    return not isinstance(value, (int, float)) or isinstance(value, bool) or is_number(value)
 
 
 def read_study(path: str | Path) -> Study:
@@ -290,9 +292,9 @@ def place_between(low: float, high: float, spacing: str, share: float) -> float:
 
 def check_road(study: Study) -> None:
     """Throws InputError where neither the table of the random road, nor a parameter, nor 'set' has what it needs."""
-    given = {key.removeprefix(ROAD) for one in study.parameters for key in one.keys if key.startswith(ROAD)}
-    given |= {key.removeprefix(ROAD) for key in study.overrides if key.startswith(ROAD)}
-    given |= set(study.random_road) | set(study.overrides.get(ROAD.removesuffix("."), {}))
+    given = {cut_key(key, ROAD) for one in study.parameters for key in one.keys}
+    given |= {cut_key(key, ROAD) for key in study.overrides}
+    given |= set(study.random_road) | set(study.overrides.get(ROAD, {}))
     for key in ("length", "spacing"):
         if key not in given:
             raise study.file.fail(("random_road",), f"'{key}' is missing in 'random_road', expected a number in m")
@@ -303,19 +305,22 @@ def check_road(study: Study) -> None:
 
 
 def check_keys(study: Study) -> None:
-    """Throws InputError for keys of designs and of the random road that lead nowhere."""
+    """Throws InputError for what is no key, and for keys of designs and of the random road that lead nowhere."""
     for parameter in study.parameters:
         at = (*parameter.place, "key")
         if at not in study.file.places():
             at = (*parameter.place, "keys")
         for key in parameter.keys:
-            if key.startswith(DESIGN):
-                name, _, rest = key.removeprefix(DESIGN).partition(".")
-                if name not in study.designs or not rest:
-                    there = ", ".join(study.designs) or "none"
+            parts = split_key(key)
+            if not parts:
+                what = f"'{key}' is no key: names with dots between, in quotes where they hold a dot"
+                raise study.file.fail(at, what, fragment=key)
+            if parts[0] == DESIGN:
+                if not any(cut_key(key, DESIGN, name) for name in study.designs):
+                    there = ", ".join(map(format_key, study.designs)) or "none"
                     raise study.file.fail(at, f"'{key}' is no key of a design (designs: {there})", fragment=key)
-            elif key.startswith(ROAD):
-                if key.removeprefix(ROAD) not in ROAD_KEYS:
+            elif parts[0] == ROAD and len(parts) > 1:
+                if cut_key(key, ROAD) not in ROAD_KEYS:
                     raise study.file.fail(at, f"'{key}' is unknown (keys of the random road: {', '.join(ROAD_KEYS)})",
                                           fragment=key)  # fmt: skip
                 if not study.random_road:

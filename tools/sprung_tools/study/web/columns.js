@@ -1,12 +1,15 @@
 "use strict";
 // The columns of the table, their scales and colours; the run that is chosen.
 
+/** The least and the largest of some numbers, however many. */
+const rangeOf = (numbers) => numbers.reduce(([low, high], one) => [Math.min(low, one), Math.max(high, one)], [Infinity, -Infinity]);
+
 /** All columns: parameters, then measures. A column of texts has categories in order, and its numbers are their places. */
 const columns = [...data.parameters, ...data.measures].map((one, index) => {
   const categories = one.categories || null, numbers = categories ? one.values.map((value) => categories.indexOf(value)) : one.values;
-  const known = numbers.filter((value) => value !== null);
+  const [low, high] = rangeOf(numbers.filter((value) => value !== null));
   return {name: one.name, unit: one.unit || "", values: one.values, numbers, categories, isParameter: index < data.parameters.length,
-    low: Math.min(...known), high: Math.max(...known), index};
+    low, high, index};
 }).filter((one) => Number.isFinite(one.low));
 const parameterColumns = columns.filter((one) => one.isParameter), measureColumns = columns.filter((one) => !one.isParameter);
 const columnOf = (select) => columns.find((one) => one.index === Number(select.value));
@@ -65,7 +68,7 @@ const runsWith = (...some) => data.rows.map((_, run) => run).filter((run) => som
 /** A frame with marks and titles of both axes, so far below the top of the canvas. Returns the area inside. */
 function drawAxes(context, width, height, across, up, top = 14) {
   context.font = "12px system-ui, sans-serif";
-  const widest = Math.max(0, ...up.marks.map(({text}) => context.measureText(text).width));
+  const widest = rangeOf([0, ...up.marks.map(({text}) => context.measureText(text).width)])[1];
   const area = {left: Math.min(Math.max(70, 30 + widest), 0.4 * width), top, right: width - 14, bottom: height - 46};
   context.strokeStyle = style("--grid");
   context.fillStyle = style("--soft");

@@ -34,14 +34,14 @@ function drawEffects() {
     element("thead", {}, element("tr", {}, ...["parameter", "explains of the variance", "chance up to", "lowest mean", "highest mean"]
       .map((text, k) => element("th", {class: k ? "number" : ""}, text)))),
     element("tbody", {}, ...found.map((one) => element("tr", {}, element("th", {scope: "row"}, one.parameter),
-      ...[tell(one), percent(one.chance), format(Math.min(...one.means)), format(Math.max(...one.means))]
+      ...[tell(one), percent(one.chance), ...rangeOf(one.means).map((mean) => format(mean))]
         .map((text) => element("td", {class: "number"}, text))))));
   const canvas = byId("effect-plot");
   canvas.style.minWidth = `${EFFECT_LEFT + EFFECT_RIGHT + LEAST_SHARE * found.length}px`;
   const {context, width} = prepareCanvas(canvas, found.length ? 260 : 0);
   effectMarks.length = 0;
   if (!found.length) return;
-  const means = found.flatMap((one) => one.means), low = Math.min(...means), high = Math.max(...means);
+  const means = found.flatMap((one) => one.means), [low, high] = rangeOf(means);
   const scale = {...measure, low, high, categories: null}, left = EFFECT_LEFT, top = 12, bottom = 200;
   const yOf = (value) => bottom - placeOn(scale, value) * (bottom - top), share = (width - left - EFFECT_RIGHT) / found.length;
   context.font = "11px system-ui, sans-serif";

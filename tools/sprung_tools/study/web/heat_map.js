@@ -33,7 +33,7 @@ function drawHeatMap() {
   const canvas = byId("heat-plot"), {context, width, height} = prepareCanvas(canvas, 380);
   const marks = (fields) => fields.map((one, k) => ({place: (k + 0.5) / fields.length, text: one.name}));
   const area = drawAxes(context, width, height, {title: titleOf(x), marks: marks(across)}, {title: titleOf(y), marks: marks(up)});
-  const known = means.flat().filter((one) => one !== null), low = Math.min(...known), high = Math.max(...known);
+  const [low, high] = rangeOf(means.flat().filter((one) => one !== null));
   const dx = (area.right - area.left) / across.length, dy = (area.bottom - area.top) / up.length;
   context.textAlign = "center";
   means.forEach((row, j) => row.forEach((mean, i) => {
