@@ -79,6 +79,27 @@ class SectionStress(ToolTestCase):
                 with self.assertRaisesRegex(InputError, gap):
                     calc_section_stress(results, "body", "modes")
 
+    def test_springs_are_left_out(self):
+        with h5py.File(write_loads(self.folder / "a.h5"), "a") as file:
+            for name in ("area", "section_modulus"):
+                file[f"recovery/body/{name}"][:2] = 0.0  # the first element
+        with open_results(self.folder / "a.h5") as results:
+            section = calc_section_stress(results, "body", "modes")
+        self.assertEqual((section.along.tolist(), section.elements.tolist()), ([-2.0, 0.0], [2, 2]))
+        np.testing.assert_allclose(1e-6 * section.stress[round(1.0 / STEP)], [(10.0, 10.0), (-10.0, 30.0)], atol=1e-9)
+
+    def test_springs_alone_and_sections_of_unknown_size_beside_springs_are_refused(self):
+        for area, modulus, gap in (
+            ((0, 0, 0, 0), (0, 0, 0, 0), "no sections of 'body': all its elements are springs"),
+            ((0, 0, 1, 1), (0, 0, 1, 0), "not all section moduli of the sections of 'body'"),
+            ((0, 0, 1, 0), (0, 0, 1, 1), "not all areas of the sections of 'body'"),
+        ):
+            with h5py.File(write_loads(self.folder / "a.h5"), "a") as file:
+                file["recovery/body/area"][:] = area
+                file["recovery/body/section_modulus"][:] = modulus
+            with open_results(self.folder / "a.h5") as results, self.assertRaisesRegex(InputError, gap):
+                calc_section_stress(results, "body", "modes")
+
     def test_loads_stored_at_some_outputs_only_are_refused(self):
         path = write_loads(self.folder / "a.h5")
         with h5py.File(path, "a") as file:
@@ -162,7 +183,7 @@ class FatigueCommand(ToolTestCase):
         done = self.run_tool("fatigue", "a.h5", "--category", "71", "--strength", "500", "--endurance", "1e8", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         packed = json.loads(done.stdout)
-        self.assertEqual((packed["format"], packed["version"]), ("sprung-measures", 2))
+        self.assertEqual((packed["format"], packed["version"]), ("sprung-measures", 3))
         line = {"category": 71e6, "slopes": [3.0, 5.0], "knee": 5e6, "endurance": 1e8, "strength": 500e6}
         self.assertEqual(packed["strength_line"], line)
         (run,) = packed["runs"]
@@ -291,6 +312,33 @@ class Programs(ToolTestCase):
         self.assertEqual(section.sides[0], ("+y", "-y"))
         np.testing.assert_allclose(section.stress[:, 0, 0], expected, rtol=1e-6)
         np.testing.assert_allclose(section.stress[:, 0, 1], -expected, rtol=1e-6)
+
+    def test_springs_and_foundations_of_a_design_leave_the_stresses_of_its_sections(self):
+        parts = DESIGN.replace("[[lines]]", """carrier = [2.0, 0.3]
+[[springs]]
+from = "tip"
+to = "carrier"
+axial_stiffness = 1e6
+rotational_stiffness = 1e5
+[[foundations]]
+from = "foot"
+to = "tip"
+part = "carrier"
+normal_stiffness = 1.0
+[[point_masses]]
+point = "carrier"
+mass = 50.0
+[[lines]]""")
+        (self.folder / "beam.toml").write_text(parts, encoding="utf-8")
+        self.run_stage("SPRUNG_REDUCE", "build", "beam.toml", "--output-dir", ".", "--force")
+        self.run_cantilever()
+        with open_results(self.folder / "run.h5") as results:
+            section = calc_section_stress(results, "beam", "loads")
+        self.assertEqual(sorted(set(section.elements)), [1, 2, 3, 4])
+        # The mass adds m g L to the moment at the root, W = 2 b h²/6 of both members; the foundation hardly counts.
+        expected = 3.0 * 7850.0 * 9.80665 * 2.0**2 / 0.12 + 50.0 * 9.80665 * 2.0 / (0.05 * 0.12**2 / 3.0)
+        root = section.stress[:, section.along == 0.0, 0]
+        np.testing.assert_allclose(root, expected, rtol=1e-5)
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ class Json(ToolTestCase):
     def test_it_has_the_numbers_of_the_tables_under_their_names_with_units(self):
         path = write_run(self.folder / "a.h5")
         found = self.read_json("truck=a.h5")
-        self.assertEqual((found["format"], found["version"]), ("sprung-measures", 2))
+        self.assertEqual((found["format"], found["version"]), ("sprung-measures", 3))
         (run,) = found["runs"]
         self.assertEqual((run["label"], run["file"], run["kind"], run["title"]), ("truck", "a.h5", "run", "synthetic"))
         self.assertEqual(run["span"], {"from": 1.0, "to": 3.0, "unit": "s"})
@@ -84,8 +84,8 @@ class Json(ToolTestCase):
             "loads/body/moment_size": (abs(bending.value), "N m"), "loads/body/shear_size": (40.0, "N"),
             "loads/body/moment_from_modes": (bending.value, "N m"), "loads/body/shear_from_modes": (-40.0, "N"),
             "loads/body/axial_from_modes": (None, "N"), "loads/body/moment_difference": (None, "N m"),
-            "modes/1/frequency": (1.5, "Hz"), "modes/1/damping_ratio": (0.2, "1"),
-            "modes/2/frequency": (9.0, "Hz"), "summary/energy_closure": (1e-6, "1"), "summary/steps": (12.0, "1"),
+            "modes/2/frequency": (1.5, "Hz"), "modes/2/damping_ratio": (0.2, "1"),
+            "modes/3/frequency": (9.0, "Hz"), "summary/energy_closure": (1e-6, "1"), "summary/steps": (12.0, "1"),
             "summary/points/body.seat/displacement_max": (0.25, "m"),
             "summary/points/body.seat/acceleration_rms": (1.5, "m/s^2"),
         }  # fmt: skip

@@ -280,7 +280,7 @@ class Refusing(ToolTestCase):
 
     def test_what_a_file_lacks_is_named(self):
         for lacking in ("model/bodies", "model/resolved/points/chassis.seat/position",
-                        "forces/front_tyre/force",
+                        "forces/front_tyre/force", "model/resolved/forces/front_tyre",
                         "bodies/chassis/modal/amplitude", "model/superelements/chassis/elements"):  # fmt: skip
             with self.subTest(lacking):
                 write_results(self.folder / "run.h5")

@@ -3,12 +3,13 @@
 import unittest
 
 import h5py
+import numpy as np
 from synthetic_results import write_results
 from tool_test_case import ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
-from sprung_tools.runs.run_caption import make_caption
+from sprung_tools.runs.run_caption import describe_road, make_caption
 from sprung_tools.runs.labelled_runs import (
     Shown,
     describe,
@@ -90,6 +91,26 @@ class Captions(ToolTestCase):
             caption = make_caption([results])
         for expected in ("initial speed 5 m/s", "1e-08"):
             self.assertIn(expected, caption)
+
+    def test_a_random_road_has_its_class_and_its_seed_from_the_run_file_and_from_set(self):
+        text = 'speed = 3.0\n[road]\nclass = "C"\nlength = 500.0\nseed = 7\n'
+        changes = ("speed=5", "vehicle.name=road", "road.class=E", "road.seed = 3")
+        table = 'road={shape = "random", rms = 0.02, length = 90}'
+        for number, (content, overrides, expected) in enumerate((
+            (text, (), "road: random, ISO 8608 class C, length 500 m, seed 7"),
+            (text, changes, "road: random, ISO 8608 class E, length 500 m, seed 3"),
+            (text, (table,), "road: random, r.m.s. 0.02 m, length 90 m, seed 1"),
+            ("[road", ("speed=5",), "road: random"),
+            ("road = 1", (), "road: random"),
+        )):  # fmt: skip
+            with h5py.File(write_results(self.folder / f"{number}.h5", overrides=overrides), "a") as file:
+                file["model/run_text"][:] = content.encode()
+                file.create_group("model/road").attrs["shape"] = np.bytes_("random")
+                file["model/resolved/road"].attrs["shape"] = np.bytes_("table")
+                for name in list(file["model/resolved/road/parameters"].attrs):
+                    del file["model/resolved/road/parameters"].attrs[name]
+            with open_results(self.folder / f"{number}.h5") as results, self.subTest(expected):
+                self.assertEqual(describe_road(results), expected)
 
     def test_a_file_of_version_1_tells_its_sampling_alone(self):
         with h5py.File(write_results(self.folder / "run.h5"), "a") as file:

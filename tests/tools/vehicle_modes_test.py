@@ -43,8 +43,8 @@ class VehicleModes(ToolTestCase):
 
     def test_who_moves_stands_in_the_words_of_the_results(self):
         results, bodies = self.write(np.zeros((5, 2)), ["chassis 100 %", "chassis bending, 95 %; cab pitch, 5 %"])
-        words = [mode.words for mode in read_vehicle_modes(results, bodies)]  # the first has frequency 0
-        self.assertEqual(words, ["chassis bending, 95 %; cab pitch, 5 %"])
+        (mode,) = read_vehicle_modes(results, bodies)  # the first has frequency 0
+        self.assertEqual((mode.number, mode.words), (2, "chassis bending, 95 %; cab pitch, 5 %"))
 
     def test_the_nodes_move_as_the_shape_says_and_the_farthest_by_one(self):
         shapes = np.zeros((5, 3))
@@ -52,6 +52,7 @@ class VehicleModes(ToolTestCase):
         shapes[2, 2] = 0.03
         results, bodies = self.write(shapes, ["chassis 100 %"] * 3)
         packed = pack_vehicle_modes(results, bodies)
+        self.assertEqual([one["number"] for one in packed["table"]], [2, 3])  # the first has frequency 0
         equilibrium = decode(packed["equilibrium"]["chassis"]).reshape(-1, 2)
         self.assertAlmostEqual(float(equilibrium[1, 1]), STATIC_HEIGHT, places=6)
         up, turned = (decode(shape["chassis"]).reshape(-1, 2) for shape in packed["shapes"])

@@ -149,9 +149,11 @@ class Results:
         objects = list_objects(self._file, read_window(self._file), points)
         # The measures of points in the summary are among those of the object `summary`.
         calc = objects.get("summary" if wanted.startswith("summary") else wanted)
-        found = calc().get(name) if calc is not None else None
+        measures = calc() if calc is not None else {}
+        found = measures.get(name)
         if found is None:
-            raise InputError(f"{self.path}: error: no measure '{name}'; there are measures of: {', '.join(objects)}")
+            there = f"there are: {', '.join(measures)}" if measures else f"there are measures of: {', '.join(objects)}"
+            raise InputError(f"{self.path}: error: no measure '{name}'; {there}")
         if found.value is None:
             raise InputError(f"{self.path}: error: {name}: {UNKNOWN}")
         return found.value

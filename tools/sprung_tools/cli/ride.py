@@ -5,16 +5,16 @@ moment of each flexible body.
 The span of time is that of the run file's [statistics], or the one given. Vibration is vertical, in m/s², the dose
 (VDV) in m/s^1.75; MTVV is the largest running r.m.s. of Wk over 1 s. Beside it stand the weighted r.m.s. fore and aft
 (Wd), of the pitch (We, rad/s²), and the total of all three; and the power that a person absorbs, W. Before the span,
-vibration of the run counts in these values as a person still feels it; the r.m.s. in third-octave bands, which --json
-gives, is of the span alone. Travel is from static equilibrium, compression is positive. Of a run that starts as given,
-in which no equilibrium was sought, static loads and deflections are mean values over the span; of one that continues
-another run they are not known. Loads are those of all parallel members together. A tyre is also without load where it
-reaches the road but rises faster than it springs back. A moment is positive where it stretches the side of -y. It is
-that from the loads on the body; beside it stand that from its modes and the largest difference of the two, which tells
-what the modes lack. With --superelements the tool also computes the bending moment of bodies that a run took as rigid,
-from the forces on them, where the file has none: the run did not store 'recovery', or its program was older. Of a
-response file with the spectra on a random road (sprung-dynamics response), the tool prints the r.m.s. values and the
-absorbed power of the linear vehicle."""
+vibration of the run counts in these values as a person still feels it, and in the r.m.s. in third-octave bands, which
+--json gives, as the filters still hold it. Travel is from static equilibrium, compression is positive. Of a run that
+starts as given, in which no equilibrium was sought, static loads and deflections are mean values over the span; of one
+that continues another run they are not known. Loads are those of all parallel members together. A tyre is also without
+load where it reaches the road but rises faster than it springs back. A moment is positive where it stretches the side
+of -y. It is that from the loads on the body; beside it stand that from its modes and the largest difference of the two,
+which tells what the modes lack. With --superelements the tool also computes the bending moment of bodies that a run
+took as rigid, from the forces on them, where the file has none: the run did not store 'recovery', or its program was
+older. Of a response file with the spectra on a random road (sprung-dynamics response), the tool prints the r.m.s.
+values and the absorbed power of the linear vehicle."""
 
 import argparse
 import json
@@ -38,7 +38,7 @@ from sprung_tools.runs.measures import (
     list_objects,
     pack_measures,
 )
-from sprung_tools.runs.ride_assessment import list_remarks, point_name
+from sprung_tools.runs.ride_assessment import list_band_remarks, list_remarks, point_name
 from sprung_tools.runs.ride_measures import (
     calc_contact,
     calc_travel,
@@ -163,8 +163,10 @@ def make_json(
     packed: list[dict[str, Any]] = []
     for run, window in zip(runs, windows):
         objects = list_objects(run.results, window, points, superelements)
+        judged = find_points(run.results, points)
         packed.append({"label": run.label, "file": run.results.path, **describe_run(run.results, window),
-                       "remarks": list_remarks(run.results, find_points(run.results, points), window)
+                       "remarks": list_remarks(run.results, judged, window)
+                       + list_band_remarks(run.results, judged, window)
                        + list_moment_remarks(run.results, superelements),
                        "measures": pack_measures(calc_measures(objects))})  # fmt: skip
     for response in responses:
@@ -181,8 +183,8 @@ def parse_arguments() -> argparse.Namespace:
     )
     parser.add_argument(
         "--points", nargs="+", metavar="BODY.POINT", default=(),
-        help="points whose vibration is judged, BODY.center_of_mass for a centre of mass (default: seats and their "
-        "bodies)",
+        help="points whose vibration is judged, BODY.center_of_mass for a centre of mass (default: of a run the seats "
+        "and the centres of mass of their bodies; of a response all points in its file, origins of axles too)",
     )  # fmt: skip
     parser.add_argument("--from", dest="start", type=float, metavar="S", help="judge from this time, s")
     parser.add_argument("--to", dest="end", type=float, metavar="S", help="judge up to this time, s")

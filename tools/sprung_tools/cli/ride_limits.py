@@ -2,8 +2,8 @@
 
 At each of --speeds it finds the r.m.s. roughness of random terrain at which the driver absorbs 6 W, and for each of
 --heights the lowest speed at which the obstacle gives the driver 2.5 g. It makes the runs that the root finding needs,
-for a limit about 4 over terrain, and 5 to 15 over an obstacle. A run that fails, or whose energy balance does not
-close, is never used: the limit that would need it is told as unknown.
+for a limit about 4 over terrain, and 5 to 15 over an obstacle. A run that fails, or of which a check failed, is
+never used: the limit that needs it is unknown.
 
 Terrain is made as tools/make_road.py makes it, always with the same phases, so that only its height changes. Its
 lowest wavenumber of 0.0547 1/m is that of 60 ft, beyond which NRMM takes off the trend of a profile. A wheel whose
@@ -263,7 +263,8 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--exponent", type=float, default=2.0, metavar="W", help="of its spectrum (2)")
     parser.add_argument("--ease", type=float, default=10.0, metavar="M", help="length of the easing at its ends (10)")
     parser.add_argument("--seed", type=int, default=1, help="of its phases (1)")
-    parser.add_argument("--jobs", type=int, default=count_processors(), metavar="N", help="runs at the same time")
+    parser.add_argument("--jobs", type=int, default=count_processors(), metavar="N",
+                        help="runs at the same time (default: as many as there are processors)")  # fmt: skip
     parser.add_argument("-o", "--output", metavar="PICTURE", help="picture to write (.png, .svg, .pdf)")
     parser.add_argument("--json", action="store_true", help="print one JSON object with all numbers in SI units")
     return parser.parse_args()

@@ -130,8 +130,8 @@ class Vehicle:
         return settings
 
     def drive(self, speed: float, road: str, duration: float) -> Felt:
-        """Drives over a road, the text of a road table. CallFailed for a run that fails, or whose energy balance does
-        not close."""
+        """Drives over a road, the text of a road table. CallFailed for a run that fails, or of which a check
+        failed."""
         with tempfile.TemporaryDirectory(dir=self.scratch) as name:
             folder = Path(name)
             write_whole(folder / "road.txt", road)
@@ -149,7 +149,7 @@ class Vehicle:
 
     def start(self, settings: Mapping[str, Any], output: Path) -> None:
         """Makes a run. InputError for an error of the input; CallFailed for a run that does not come
-        to its end, or whose energy balance does not close."""
+        to its end, or of which a check failed."""
         # What makes this run comes last: it counts before what a variant changes.
         settings = {**settings, "statistics.from": 0.0, "statistics.to": settings["duration"]}
         overrides = [*format_overrides(STORED), *self.variant.overrides, *format_overrides(settings)]

@@ -141,6 +141,12 @@ def read_elements(results: ResultsFile, group: str) -> dict[str, Element]:
     return elements
 
 
+def read_element(results: ResultsFile, group: str, name: str) -> Element:
+    """Reads one of the `joints` or the `forces`. InputError if the model as run does not have it."""
+    find_group(results, f"{group}/{name}")
+    return read_elements(results, group)[name]
+
+
 def check_point(results: ResultsFile, where: str, point: Point) -> None:
     """Throws InputError if a point does not fit to its body's superelement: its node, or the number of its shapes."""
     modes = results.num_modes(point.body)

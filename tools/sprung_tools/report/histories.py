@@ -18,7 +18,7 @@ from sprung_tools.model.force_channels import (
     list_force_channels,
 )
 from sprung_tools.model.reduced_vectors import OF_THE_BODY, describe_vectors, read_vectors
-from sprung_tools.model.resolved_model import ROOT, Element, read_elements
+from sprung_tools.model.resolved_model import ROOT, Element, read_element
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode, find_kept
 from sprung_tools.report.shown_motion import choose_axes, is_vehicle, name_axis, read_motion
@@ -70,10 +70,9 @@ def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequ
         for point in find_most_bent(results, drawn):
             add("Deflection", f"{point}, {IN_BODY_FRAME}", f"points/{point}/deflection.y")
         channels.extend(calc_moment_envelope(results, drawn))
-    forces = read_elements(results, "forces")
     for force in results.names("forces"):
         for channel in list_force_channels(results, force):
-            name = describe_history(channel, forces[force])
+            name = describe_history(channel, read_element(results, "forces", force))
             if name:  # an applied force may have only one of its components
                 unless_zero = channel.role in (GIVEN, TORQUE)
                 add("Forces", f"{force}, {name}", channel.quantity, unless_zero=unless_zero)

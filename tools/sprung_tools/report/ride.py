@@ -14,6 +14,7 @@ from sprung_tools.runs.ride_assessment import (
     calc_bands,
     calc_vibration,
     describe_comfort,
+    list_band_remarks,
     list_remarks,
 )
 from sprung_tools.runs.ride_measures import (
@@ -76,7 +77,8 @@ def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: s
         contacts = [{"name": name, **calc_contact(results, name, window)._asdict()} for name in tyres]
     except InputError as error:  # unequally spaced samples; the rest of the page does not need equal ones
         problem = problem or str(error)
-    remarks = list_remarks(results, list(vibrations), window)
+    judged = list(vibrations)
+    remarks = list_remarks(results, judged, window) + list_band_remarks(results, judged, window)
     return {"problem": problem, "remarks": remarks, "points": points, "travel": travels,
             "tyres": contacts}  # fmt: skip
 

@@ -22,7 +22,7 @@ from sprung_tools.model.force_channels import (
     list_force_channels,
 )
 from sprung_tools.model.reduced_vectors import OF_THE_BODY, describe_vectors, read_vectors
-from sprung_tools.model.resolved_model import read_elements, read_road_settings, read_settings
+from sprung_tools.model.resolved_model import read_element, read_settings
 from sprung_tools.report.histories import IN_BODY_FRAME, LARGEST_AXIAL, LARGEST_MOMENT, Channel, list_monitored
 from sprung_tools.report.packing import Packed
 from sprung_tools.report.shown_motion import VERTICAL, choose_axes, name_axis, read_motion
@@ -156,7 +156,7 @@ def calc_force_rows(results: ResultsFile, force: str, inside: Flags) -> list[Sta
         off = step * float(np.count_nonzero(~on_road))
         rows.append(Statistic(force, "time off the road", "s", off, find_row_step(results, contact)))
         return rows
-    kind = read_elements(results, "forces")[force].kind
+    kind = read_element(results, "forces", force).kind
     for channel in list_force_channels(results, force):
         name = describe_deflection(channel, on_road=False, kind=kind)
         if name:
@@ -174,7 +174,7 @@ def list_facts(results: ResultsFile, has_tyres: bool, sha256: str) -> list[tuple
     settings = read_settings(results)
     facts = [("vehicle", results.title)]
     if has_tyres:
-        facts.append(("road", describe_road(read_road_settings(results)).removeprefix("road: ")))
+        facts.append(("road", describe_road(results).removeprefix("road: ")))
     if has_tyres or settings["speed"] != 0.0:
         facts.append(("initial speed", f"{settings['speed']:g} m/s"))
     step = float(np.median(np.diff(results.time)))

@@ -21,7 +21,9 @@ def pack_vehicle_modes(results: ResultsFile, bodies: Sequence[DrawnBody]) -> Pac
     modes = read_vehicle_modes(results, bodies)
     equilibrium = {body.name: calc_equilibrium(results, body) for body in bodies} if modes and modes[0].shape else {}
     return {
-        "table": [{"f": mode.frequency, "damping": mode.damping, "who": mode.words} for mode in modes],
+        "table": [
+            {"number": mode.number, "f": mode.frequency, "damping": mode.damping, "who": mode.words} for mode in modes
+        ],
         "equilibrium": {name: encode(places) for name, (places, _) in equilibrium.items()},
         "shapes": [pack_shape(mode, bodies, equilibrium) for mode in modes[:MOST_DRAWN] if equilibrium],
     }  # fmt: skip

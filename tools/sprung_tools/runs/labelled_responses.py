@@ -25,9 +25,7 @@ class Response(NamedTuple):
     def values(self, output: str, *, is_spectrum: bool) -> tuple[Floats, str]:
         """Reads the magnitude of an output's response, or its spectral density [m]. Returns (values, unit). InputError
         if the file has none."""
-        group = f"outputs/{output}"
-        if not self.file.has_dataset(f"{group}/response"):
-            raise InputError(f"{self.file.filename}: error: no output '{output}'; there are: {', '.join(self.names())}")
+        group = self._find_group(output)
         if not is_spectrum:
             pairs, unit = read_numbers(self.file, f"{group}/response")
             return np.hypot(pairs[:, 0], pairs[:, 1]), unit
@@ -40,7 +38,13 @@ class Response(NamedTuple):
 
     def rms(self, output: str) -> float:
         """The r.m.s. of an output, from a file with spectra."""
-        return read_real(self.file, f"outputs/{output}", "rms")
+        return read_real(self.file, self._find_group(output), "rms")
+
+    def _find_group(self, output: str) -> str:
+        group = f"outputs/{output}"
+        if not self.file.has_dataset(f"{group}/response"):
+            raise InputError(f"{self.file.filename}: error: no output '{output}'; there are: {', '.join(self.names())}")
+        return group
 
     def names(self) -> list[str]:
         """The outputs in the file."""

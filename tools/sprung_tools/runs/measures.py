@@ -49,7 +49,7 @@ from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import NOMINAL
 
-JSON_FORMAT, JSON_VERSION = "sprung-measures", 2  # tools/README.md, "Measures"
+JSON_FORMAT, JSON_VERSION = "sprung-measures", 3  # tools/README.md, "Measures"
 HISTORIES = "histories/"
 UNKNOWN = "the run has no such value (tools/README.md, Measures, tells when a value is null)"
 # The units of the measures of each kind of object; those of the summary follow from the ends of their names.
@@ -139,14 +139,16 @@ def list_objects(
 
 
 def list_mode_objects(results: ResultsFile) -> Objects:
-    """The vehicle's modes about its equilibrium that oscillate, the lowest first: `modes/1` …; none if the run did not
-    start from equilibrium."""
+    """The vehicle's modes about its equilibrium that oscillate, `modes/K` with the number K that
+    `sprung-dynamics modes` gives; none if the run did not start from equilibrium."""
     if not results.has(f"{WHERE}/undamped_frequency"):
         return {}
     frequency, _ = read_numbers(results.file, f"{WHERE}/undamped_frequency")
     damping, _ = read_numbers(results.file, f"{WHERE}/damping_ratio")
-    pairs = [pair for pair in zip(frequency, damping) if pair[0] > 0.0]
-    return {f"modes/{k}": partial(combine, f"modes/{k}", MODE_UNITS, pair) for k, pair in enumerate(pairs, start=1)}
+    return {
+        f"modes/{k}": partial(combine, f"modes/{k}", MODE_UNITS, pair)
+        for k, pair in enumerate(zip(frequency, damping), start=1) if pair[0] > 0.0
+    }  # fmt: skip
 
 
 def measure_point(results: ResultsFile, name: str, folder: str, window: Span) -> Measures:

@@ -6,9 +6,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.random_road import read_random_road
 from sprung_tools.model.resolved_model import has_resolved_model, read_elements, read_road_settings, read_settings
 
 LINE_LENGTH = 118  # characters that fit under a picture
+# Keys of a road that its description has, with words and units.
+ROAD_NUMBERS = {
+    "rms": ("r.m.s.", " m"), "density": ("density at 0.1 1/m", " m³"), "length": ("length", " m"),
+    "height": ("height", " m"), "seed": ("seed", ""),
+}  # fmt: skip
 
 
 def make_caption(results: Sequence[ResultsFile], remarks: Sequence[str] = ()) -> str:
@@ -32,7 +38,7 @@ def list_parts(results: ResultsFile) -> list[str]:
         if on_road or settings["speed"] != 0.0:
             parts.append(f"initial speed {settings['speed']:g} m/s")
         if on_road:
-            parts.append(describe_road(read_road_settings(results)))
+            parts.append(describe_road(results))
         parts.append("integrator: " + describe_integrator(settings["integrator"]))
     step = (results.time[-1] - results.time[0]) / (results.time.size - 1)
     parts.append(f"a sample every {1e3 * step:g} ms")
@@ -45,10 +51,16 @@ def describe_integrator(settings: Mapping[str, Any]) -> str:
     return ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in shown.items())
 
 
-def describe_road(road: Mapping[str, Any]) -> str:
-    """`road: half-sine, length 0.4 m, height 0.2 m` from the road's settings; for a road from a table its file."""
+def describe_road(results: ResultsFile) -> str:
+    """`road: half-sine, length 0.4 m, height 0.2 m`, `road: random, ISO 8608 class C, length 500 m, seed 7`; for a road
+    from a table its file."""
+    road = read_road_settings(results) | read_random_road(results)
     parts = [f"road: {road['shape']}"]
-    parts += [f"{name} {road[name]:g} m" for name in ("length", "height") if name in road]
+    if isinstance(road.get("class"), str):
+        parts.append(f"ISO 8608 class {road['class']}")
+    for key, (name, unit) in ROAD_NUMBERS.items():
+        if isinstance(road.get(key), (int, float)):
+            parts.append(f"{name} {road[key]:g}{unit}")
     if road.get("file"):
         parts.append(road["file"])
     return ", ".join(parts)

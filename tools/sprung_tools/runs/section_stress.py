@@ -4,14 +4,15 @@
 
 N and M are axial force and bending moment of a section (dynamics/output/results.md), A and W its area and section
 modulus, W = I/e with the distance e of the extreme fibre from the centroid. They are nominal stresses of the beam:
-without those of shear, and without what welds, holes and corners add.
+without those of shear, and without what welds, holes and corners add. The springs of a design, those of its foundations
+too, are elements without a section, A = W = 0, and have no stresses.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from sprung_tools.files.array_types import Floats, Integers
+from sprung_tools.files.array_types import Flags, Floats, Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
@@ -25,9 +26,9 @@ SIDES = ("left", "right")
 class SectionStress(NamedTuple):
     """The stresses of a body over time.
 
-    along: place of each station [stations] m, and axis says what it is; elements: the element of each station, from 1;
-    sides: which way each of its two fibres lies from the centroid, such as "+y" [stations × 2]; stress: of these fibres
-    [n × stations × 2] Pa.
+    along: place of each station [stations] m, and axis says what it is; elements: the element of each station, from 1,
+    where springs count but have no stations; sides: which way each of its two fibres lies from the centroid, such as
+    "+y" [stations × 2]; stress: of these fibres [n × stations × 2] Pa.
     """
 
     along: Floats
@@ -51,13 +52,24 @@ def find_gap(results: ResultsFile, body: str) -> str:
     """What the file lacks for a body's stresses; empty if it has all."""
     if not list_sources(results, body):
         return f"no loads of the sections of '{body}'"
-    for name, what in (("area", "areas"), ("section_modulus", "section moduli")):
-        dataset = f"recovery/{body}/{name}"
-        if not results.file.has_dataset(dataset):
+    sizes = (("area", "areas"), ("section_modulus", "section moduli"))
+    for name, what in sizes:
+        if not results.file.has_dataset(f"recovery/{body}/{name}"):
             return f"no {what} of the sections of '{body}': sprung-reduce build makes its superelement with them"
-        if np.any(read_numbers(results.file, dataset)[0] <= 0.0):
+    has_section = find_sections(results, body)
+    if not np.any(has_section):
+        return f"no sections of '{body}': all its elements are springs"
+    for name, what in sizes:
+        if np.any(read_numbers(results.file, f"recovery/{body}/{name}")[0][has_section] <= 0.0):
             return f"not all {what} of the sections of '{body}': its design needs 'section_modulus' or a 'shape'"
     return ""
+
+
+def find_sections(results: ResultsFile, body: str) -> Flags:
+    """Which stations of a body have a section, those of all elements but springs [stations]."""
+    area, modulus = (read_numbers(results.file, f"recovery/{body}/{name}")[0] for name in ("area", "section_modulus"))
+    is_spring = np.all((np.stack([area, modulus]) == 0.0).reshape(2, -1, 2), axis=(0, 2))
+    return np.repeat(~is_spring, 2)
 
 
 def name_datasets(body: str, source: str) -> list[str]:
@@ -76,7 +88,9 @@ def calc_section_stress(results: ResultsFile, body: str, source: str) -> Section
         read_numbers(results.file, name)[0] for name in (*name_datasets(body, source), *others)
     )
     order, along, axis = place_stations(stations)
-    mean, bending = (axial / area)[:, order], (moment / modulus)[:, order]
+    has_section = find_sections(results, body)[order]
+    order, along = order[has_section], along[has_section]
+    mean, bending = axial[:, order] / area[order], moment[:, order] / modulus[order]
     sides = [name_sides(*stations[[2 * element, 2 * element + 1]]) for element in order // 2]
     return SectionStress(along, axis, order // 2 + 1, sides, np.stack([mean - bending, mean + bending], axis=-1))
 

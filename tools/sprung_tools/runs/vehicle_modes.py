@@ -15,9 +15,11 @@ WHERE = "model/modes"
 
 
 class VehicleMode(NamedTuple):
-    """A mode: undamped frequency [Hz], damping ratio, the bodies that move in words, and its shape: for each body the
-    displacement x, y [m], the rotation [rad] and the modal amplitudes; mass-normalised."""
+    """A mode: its number among all, from 1, as `sprung-dynamics modes` prints it; undamped frequency [Hz], damping
+    ratio, the bodies that move in words, and its shape: for each body the displacement x, y [m], the rotation [rad] and
+    the modal amplitudes; mass-normalised."""
 
+    number: int
     frequency: float
     damping: float
     words: str
@@ -42,7 +44,7 @@ def read_vehicle_modes(results: ResultsFile, bodies: Sequence[DrawnBody]) -> lis
                 f"expected {3 + body.shapes.shape[2]}"
             )
     modes = []
-    for number in np.flatnonzero(frequency > 0.0):
-        shape = {name: shapes[places, number] for name, places in rows.items() if places}
-        modes.append(VehicleMode(float(frequency[number]), float(damping[number]), participants[number], shape))
+    for k in map(int, np.flatnonzero(frequency > 0.0)):
+        shape = {name: shapes[places, k] for name, places in rows.items() if places}
+        modes.append(VehicleMode(k + 1, float(frequency[k]), float(damping[k]), participants[k], shape))
     return modes

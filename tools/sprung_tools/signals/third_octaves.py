@@ -5,11 +5,12 @@ instruments have it (IEC 61260):
 
     H = 1/((1 + p)(1 + p + p²)),   p = j (f² − f₀²)/(f (f₂ − f₁))                                        (1)
 
-The r.m.s. in a band is that of a span of n samples alone, before and after which the signal counts as 0. All that the
-filter makes of it belongs to the band, also what fades after the span (Parseval's theorem; X: transform of the span and
-of zeros up to N samples):
+The filters begin at the first sample of a record, in the state of one that had its value all the time before: a
+constant has no response. The r.m.s. in a band is that of what comes out of the filter over a span of the record. So it
+holds what vibration before the span leaves in the filter, and not what fades after the span. The slowest pole of (1)
+decays as exp(−0.326 f₀ t): what is left of vibration before a time falls to a thousandth within
 
-    r.m.s.² = Σ y²/n = Σ_k |H X_k|²/(n N)                                                                (2)
+    t = 21.3/f₀                                                                                          (2)
 
 The boundary is that of ISO 2631:1978: the fatigue-decreased proficiency boundary, divided by 3.15. The latter is lowest
 from 4 to 8 Hz, where it is given for each time of exposure; below it goes with f^-½, above with f. The edition of 1997
@@ -18,7 +19,9 @@ no longer has it: there a band counts by its weighting.
 
 import numpy as np
 
-from sprung_tools.files.array_types import ComplexNumbers, Floats
+from sprung_tools.files.array_types import ComplexNumbers, Flags, Floats
+from sprung_tools.signals.ride_weighting import find_fast_size
+from sprung_tools.signals.spectra import calc_rms
 
 BANDS = np.arange(-3, 20)  # 10^(n/10) Hz: the bands from 0.5 to 80 Hz
 NOMINAL = (0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 31.5, 40.0,
@@ -26,22 +29,19 @@ NOMINAL = (0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 1
 BAND_EDGES = np.array([10.0**-0.05, 10.0**0.05])  # over the frequency of the middle
 PROFICIENCY = {"1 min": 2.8, "25 min": 1.8, "1 h": 1.18, "4 h": 0.53, "8 h": 0.315, "24 h": 0.14}  # m/s², 4 to 8 Hz
 COMFORT = 3.15  # by which the proficiency boundary is divided
-FADING = 60.0  # s of rest appended to a span, in which the response of the narrowest band fades
-ROUND = 4096  # a length of signals that is a multiple of this is transformed fast
+FADING = 60.0  # s of rest appended to a record, so that the end of a response does not reach its start again
+MEMORY_PERIODS = 21.3  # by (2)
 BOUNDED = (1.0, 80.0)  # Hz, where there is a boundary
 
 
-def calc_third_octaves(values: Floats, step: float) -> Floats:
-    """The r.m.s. of the samples of a span [n] in the bands of NOMINAL by (2) [23]. step: between samples [s]."""
-    size = ROUND * int(np.ceil((values.size + FADING / step) / ROUND))
-    power: Floats = np.square(np.abs(np.fft.rfft(values, size)))
-    power[1:-1] *= 2.0  # the size is even: only the first and the last line have no negative counterpart
+def calc_third_octaves(values: Floats, step: float, inside: Flags | slice = slice(None)) -> Floats:
+    """The r.m.s. of a record [n] in the bands of NOMINAL [23] over a span of it. step: between samples [s]; inside: the
+    samples of the span (default: all)."""
+    size = find_fast_size(values.size + int(np.ceil(FADING / step)))
+    transform = np.fft.rfft(values - values[0], size)
     frequency = np.fft.rfftfreq(size, step)
-    mean_squares = [
-        np.sum(np.abs(calc_band(frequency, centre)) ** 2 * power) / (values.size * size)
-        for centre in 10.0 ** (BANDS / 10.0)
-    ]  # fmt: skip
-    return np.sqrt(mean_squares)
+    responses = (transform * calc_band(frequency, centre) for centre in 10.0 ** (BANDS / 10.0))
+    return np.array([calc_rms(np.fft.irfft(one, size)[: values.size][inside]) for one in responses])
 
 
 def calc_band(frequency: Floats, centre: float) -> ComplexNumbers:

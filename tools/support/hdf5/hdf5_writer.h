@@ -37,11 +37,10 @@ class Hdf5Writer {
  public:
   /// @param target   final name; an existing file of this name stays unchanged until `commit`. The file is
   ///                 written as `target` + ".tmp".
-  /// @param partial  name for what is left of a file that does not become complete, in the same folder; ""
-  /// for
-  ///                 none. `commit` removes a file of this name.
+  /// @param partial  name for what is left of a file that does not become complete, in the same folder, or
+  ///                 "" for none. `commit` removes a file of this name.
   /// @throws InputError if the folder is missing, the target is not a regular file, or another program is
-  /// writing it
+  ///                    writing it
   explicit Hdf5Writer(std::filesystem::path target, std::filesystem::path partial = {});
   Hdf5Writer(Hdf5Writer&&) = delete;
   ~Hdf5Writer();

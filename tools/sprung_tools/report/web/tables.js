@@ -93,7 +93,7 @@ function fillFrequencies(place) {
   place.replaceChildren(...shown.map(({run, index, modes}) => {
     const least = modes.slice(0, MOST_FREQUENCIES), count = modes.length > least.length ? `, the lowest ${least.length} of ${modes.length}` : "";
     const headings = ["mode", "Hz", "damping", "who moves"].map((text, k) => element("th", {class: k < 3 ? "number" : "", scope: "col"}, text));
-    const rows = least.map((mode, k) => element("tr", {}, ...[String(k + 1), format(mode.f), `${format(100 * mode.damping, 3)} %`]
+    const rows = least.map((mode) => element("tr", {}, ...[String(mode.number), format(mode.f), `${format(100 * mode.damping, 3)} %`]
       .map((text) => element("td", {class: "number"}, text)), element("td", {class: "who"}, mode.who.replaceAll(" %", "\u00a0%"))));
     return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": `The vehicle's modes, ${run.label}`},
       element("table", {}, element("caption", {class: "note"}, element("span", {class: "key", style: `--c:${colourOf(index)}`}), `${run.label}${count}`),

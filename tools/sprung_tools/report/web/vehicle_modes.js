@@ -83,7 +83,7 @@ function tellMode() {
   const found = data.runs[modeShow.run].vehicleModes.table[modeShow.mode];
   byId("mode-words").textContent = `${format(found.f)} Hz, damping ratio ${format(100 * found.damping, 3)} %: ${found.who}. ` +
     `Shown once in ${PERIOD} s; pale: in equilibrium.`;
-  byId("mode-scene").setAttribute("aria-label", `Mode ${modeShow.mode + 1} of the vehicle, ${found.who}`);
+  byId("mode-scene").setAttribute("aria-label", `Mode ${found.number} of the vehicle, ${found.who}`);
 }
 
 function makeVehicleModes() {
