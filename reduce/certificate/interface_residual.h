@@ -7,8 +7,8 @@
 
 namespace sprung::reduce {
 
-/// What a basis misses of a free body's response to unit loads: the residual r of each load and its norm D =
-/// rᵀK⁻¹r, at any frequency, from products that are made once (reduce/certificate, eqs. 3–5).
+/// What a basis misses of a free body's response to unit loads: the residual r of each load and its norm
+/// D = rᵀK⁻¹r, at any frequency, from products that are made once (reduce/certificate, eqs. 3–5).
 ///
 /// The basis is that of the exact modes given at the beginning, and of vectors that are added. All vectors
 /// are those of the held frame, n values each; s is ω² [rad²/s²]. b loads, m vectors.
@@ -32,25 +32,30 @@ class InterfaceResidual {
   /// @param added  n×j, not dependent on each other or on those of the basis
   void add(Eigen::MatrixXd added);
 
-  /// Adds loads behind those given at the beginning. @param loads  n×j, balanced
+  /// Adds loads behind those given at the beginning.
+  /// @param loads  n×j, balanced
   void add_loads(Eigen::MatrixXd loads);
 
-  /// Amplitudes of the basis under each load, by Galerkin's condition, in the coordinates of ritz(). @return
-  /// m×b
+  /// Amplitudes of the basis under each load, by Galerkin's condition, in the coordinates of ritz().
+  /// @return m×b
   Eigen::MatrixXd calc_amplitudes(double s) const;
 
-  /// D of each load for given amplitudes, at the expense of m²b operations. @param amplitudes  m×b   @return
-  /// b, ≥ 0
+  /// D of each load for given amplitudes, at the expense of m²b operations.
+  /// @param amplitudes  m×b
+  /// @return b, ≥ 0
   Eigen::VectorXd calc_errors(double s, const Eigen::MatrixXd& amplitudes) const;
-  /// Work of each load's share that no exact mode takes on the displacements of each at rest. @return b×b
+  /// Work of each load's share that no exact mode takes on the displacements of each at rest.
+  /// @return b×b
   Eigen::MatrixXd calc_load_work() const;
   /// D of all pairs of loads.
-  /// @param load_work  as from calc_load_work, which takes b²n operations   @return b×b, symmetric
+  /// @param load_work  as from calc_load_work, which takes b²n operations
+  /// @return b×b, symmetric
   Eigen::MatrixXd calc_error_matrix(const Eigen::MatrixXd& load_work, double s,
                                     const Eigen::MatrixXd& amplitudes) const;
 
-  /// rᴴK⁻¹r of each load, with Galerkin's amplitudes, for a body with stiffness (1 + iη)K. @param loss_factor
-  /// η ≥ 0; 2 ζ for the modal damping ratio ζ (reduce/certificate, "Damping")   @return b, ≥ 0
+  /// rᴴK⁻¹r of each load, with Galerkin's amplitudes, for a body with stiffness (1 + iη)K.
+  /// @param loss_factor  η ≥ 0; 2 ζ for the modal damping ratio ζ (reduce/certificate, "Damping")
+  /// @return b, ≥ 0
   Eigen::VectorXd calc_damped_errors(double s, double loss_factor) const;
 
   /// K⁻¹r of a load: the direction that lessens its error most. @return n
