@@ -105,7 +105,7 @@ std::string explain_stop(int code) {
              "of \"adams\"";
     case CV_ERR_FAILURE:
       return "the step has become too short; look at forces and positions just before that time, which may "
-             "be a singular one";
+             "be a singular one, or take a larger tolerance";
     case CV_RHSFUNC_FAIL:
     case CV_FIRST_RHSFUNC_ERR:
     case CV_REPTD_RHSFUNC_ERR:
