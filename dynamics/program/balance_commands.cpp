@@ -97,6 +97,40 @@ void warn_of_forces_at_rest(const PreparedRun& prepared, std::vector<RunWarning>
     if (kink.in_position) warn(kink.describe());
 }
 
+// Bodies whose bending in a mode is damped far less than their design asks for: each vector is damped at its
+// own frequency, which may be much higher than that of the mode (reduce/basis, eq. 8).
+void warn_of_lost_damping(const Vehicle& vehicle, const Model& model, const std::vector<VehicleMode>& modes,
+                          std::vector<RunWarning>& warnings) {
+  constexpr double kMostly = 0.5, kLost = 0.5;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (body.num_modes() == 0) continue;
+    const std::optional<reduce::Certificate>& certificate =
+        vehicle.superelement_of(vehicle.bodies[b])->certificate;
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      if (modes[k].is_rigid_body) continue;
+      if (certificate && modes[k].undamped_frequency_hz > certificate->highest_hz) break;
+      const double omega = 2.0 * std::numbers::pi * modes[k].undamped_frequency_hz;
+      const Eigen::VectorXd eta = modes[k].shape.segment(body.first_coordinate + 3, body.num_modes());
+      const Eigen::ArrayXd energies = body.stiffness.diagonal().array() * eta.array().square();
+      const Eigen::ArrayXd ratios = 0.5 * body.damping.diagonal().array() /
+                                    (body.stiffness.diagonal().array() * body.modal_mass.array()).sqrt();
+      const double asked = (ratios * energies).sum() / (omega * omega),
+                   found = 0.5 * eta.dot(body.damping * eta) / omega;
+      if (energies.sum() < kMostly * omega * omega || found >= kLost * asked) continue;
+      warnings.push_back(
+          {"modes",
+           {body.name},
+           fmt::format(
+               "{} damps its bending in mode {}, {:.5g} Hz, by a ratio of {:.2g} where {:.2g} is asked "
+               "for: its vectors have higher frequencies, and each is damped at its own; take clamped "
+               "modes with the reference where the body is held, or raise its damping",
+               body.name, k + 1, modes[k].undamped_frequency_hz, found, asked)});
+      break;
+    }
+  }
+}
+
 // Prints the warnings about the model at once, as a run does. @return these, and those about the balance
 std::vector<RunWarning> tell_warnings(const PreparedRun& prepared, const RestingSections& resting,
                                       std::FILE* err) {
@@ -170,6 +204,7 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   warn_of_rounding(*prepared.equilibrium, warnings);
   warn_of_rounded_modes(model, modes, warnings);
   warn_of_forces_at_rest(prepared, warnings);
+  warn_of_lost_damping(prepared.vehicle, model, modes, warnings);
   std::optional<FrequencyBracket> bracket;
   if (output.bracket) bracket = calc_bracket(prepared, warnings);
   if (output.json) {

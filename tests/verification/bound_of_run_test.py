@@ -108,6 +108,23 @@ class Bound(VerificationCase):
         self.assertGreater(shares[0], 0.5 * shares[1])
         self.assertGreater(shares[1], 1e-3)
 
+    def test_damping_that_an_installed_body_loses_is_told(self):
+        """The chassis clamped at its rear end bends far below its free modes. Nothing else damps it, so that the ratio
+        told is that of the mode; asked for is 1 %."""
+        vehicle = (
+            'name = "held"\ngravity = [0.0, 0.0]\n[ground.points]\nwall = [3.8257, 0.0]\n'
+            '[bodies.chassis]\nsuperelement = "chassis_certified"\nposition = [0.0, 0.0]\n'
+            '[[joints]]\nname = "weld"\ntype = "fixed"\na = "ground.wall"\nb = "chassis.rear_end"\n'
+        )
+        run = self.write_model(vehicle, 'duration = 1.0\n[modes]\nchassis = "all"\n')
+        printed = self.program("modes", run, superelements=TRUCK_SUPERELEMENTS)
+        first = printed["modes"][0]
+        self.assertLess(first["damping_ratio"], 0.004)
+        (text,) = (one["text"] for one in printed["warnings"] if "damps its bending" in one["text"])
+        expected = (f"chassis damps its bending in mode 1, {first['undamped_frequency']:.5g} Hz, by a ratio of "
+                    f"{first['damping_ratio']:.2g} where 0.01 is asked for")  # fmt: skip
+        self.assertTrue(text.startswith(expected), (text, expected))
+
     def test_a_part_of_a_basis_is_not_proved(self):
         self.build(good=("= 60.0", "= 60.0"))
         run = self.write_model(PUSHED.format(superelement="good", point="rear_spring"), PUSHED_RUN)
