@@ -1,6 +1,7 @@
 """Integrals over polygons, to check areas and second moments of sections by."""
 
 import numpy as np
+import tool_test_case  # noqa: F401  puts tools/ on the path
 
 from sprung_tools.mesh_import.plane_section import calc_extremes
 

@@ -15,7 +15,7 @@ from sprung_tools.model.force_channels import (
     list_force_channels,
     read_force_channel,
 )
-from sprung_tools.model.resolved_model import read_elements, read_settings
+from sprung_tools.model.resolved_model import read_element, read_elements, read_settings
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.rounding import clear_each, read_acceleration
 from sprung_tools.signals.ride_weighting import HIGHEST, SAMPLES_PER_PERIOD, calc_dose, weight_acceleration
@@ -143,7 +143,7 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
     quantity = find_suspensions(results)[name]
     deflection, _ = results.series(quantity)
     static = calc_static(results, deflection, inside)
-    element = read_elements(results, "forces")[quantity.split("/")[1]]
+    element = read_element(results, "forces", quantity.split("/")[1])
     stop = 0.0 if element.kind == END_STOP else element.parameters.get("compression_stop")
     deflection = deflection[inside]
     struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
