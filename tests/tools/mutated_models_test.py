@@ -107,6 +107,7 @@ class MutatedModels(ToolTestCase):
 
     def try_places(self, document, run_changed, every=EVERY):
         """Places of a document with other values. run_changed: takes the changed document, returns an exit code."""
+        self.assertEqual(run_changed(document), 0)  # or all are refused for something else
         codes = []
         for number, place in list(enumerate(list_places(document)))[::every]:
             for attempt in range(ROUNDS):
@@ -114,7 +115,6 @@ class MutatedModels(ToolTestCase):
                 with self.subTest(what):
                     codes.append(run_changed(changed))
         self.assertGreater(codes.count(2), len(codes) / 3)
-        self.assertGreater(codes.count(0) + codes.count(1), len(codes) / 25)  # the document itself is good
         if "SPRUNG_MUTANTS" in os.environ:
             print(self.id(), sorted(collections.Counter(codes).items()), flush=True)
 
