@@ -16,12 +16,12 @@
 #include "dynamics/output/run_report.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
+#include "dynamics/program/results_names.h"
 #include "dynamics/program/start_state.h"
 #include "dynamics/simulation/transient.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/files/bytes.h"
-#include "tools/support/hdf5/foreign_file.h"
 #include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
 #include "tools/support/terminal/progress_bar.h"
@@ -113,11 +113,6 @@ void warn_of_other_speed(const PreparedRun& prepared, std::vector<RunWarning>& w
              "do not allow: the run begins with a jolt; give both the same speed",
              wheel.name, wheel.speed, run.speed)});
   }
-}
-
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code missing;
-  return std::filesystem::equivalent(a, b, missing) && !missing;
 }
 
 // CPU time of the program so far [s].
@@ -263,45 +258,16 @@ void give_up_writing(WrittenRun& run, std::FILE* err) {
     support::print(err, "partial results: {}; to continue, run again with --resume\n", partial.string());
 }
 
-// Files of others are not overwritten, nor results that are called as partial ones are.
-void check_names(const RunOutput& output) {
-  if (output.results.empty()) return;
-  for (const std::filesystem::path& name : {output.results, partial_name(output.results)}) {
-    if (support::is_foreign_file(name, kResultsFormat)) {
-      throw support::InputError(
-          {.path = name.string()},
-          "exists and is no results file, so it is not overwritten; move it or name another with -o");
-    }
-  }
-  if (output.results.extension() == ".partial" || output.results.stem().extension() == ".partial") {
-    throw support::InputError({.path = output.results.string()},
-                              "is a name of results that are not complete; name others with -o");
-  }
-}
-
-// The file that a run continues is neither replaced nor removed by it.
-void check_continued_file(const Run& run, const RunOutput& output) {
-  if (run.continue_from.empty() || output.results.empty()) return;
-  for (const std::filesystem::path& name : {output.results, partial_name(output.results)}) {
-    if (!is_same_file(run.continue_from, name)) continue;
-    throw support::InputError(
-        run.continue_location,
-        fmt::format("{} is also the name of the results, or of their partial file, which would replace it; "
-                    "name others with -o",
-                    run.continue_from.string()));
-  }
-}
-
 }  // namespace
 
 int run_command(const RunRequest& request, const RunOutput& output) {
   const support::Streams& streams = request.streams;
-  check_names(output);
+  check_results_name(output.results);
   if (output.resume && output.results.empty())
     throw support::InputError({.path = "--resume"}, "needs -o, the name of the results");
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   const Run& run = prepared.run;
-  check_continued_file(run, output);
+  check_continued_file(run, output.results);
   if (!output.json && !request.quiet && !output.dry_run) print_description(streams.out, prepared);
   std::vector<RunWarning> model_warnings =
       list_model_warnings(prepared.model, prepared.assembly, prepared.start,

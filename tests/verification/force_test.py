@@ -78,51 +78,6 @@ b = "disc.origin"
 """
 
 
-MOUNTED = """
-name = "mounted"
-gravity = [0.0, 0.0]
-[ground.points]
-wall = [0.0, 0.0]
-[bodies.b]
-mass = 1.0
-inertia = 1.0
-position = [0.0, 0.0]
-[[forces]]
-name = "mount"
-type = "bushing"
-a = "ground.wall"
-b = "b.origin"
-x = { spring = { polynomial = [0.0, 400.0] } }
-y = { spring = {y} }
-rotation = { spring = { polynomial = [0.0, 110.0] } }
-"""
-
-
-class LinearModes(VerificationCase):
-    def find_modes(self, spring, more=""):
-        run = self.write_model(MOUNTED.replace("{y}", spring) + more, "duration = 1.0\n")
-        return self.program("modes", run)
-
-    def test_a_following_force_is_told_beside_the_modes(self):
-        # K = [400 0 0; 0 100 100; 0 0 110 − 0], a force along the body's own x: triangular, so that ω² are the
-        # entries of its diagonal. Undamped modes are those of the symmetric part.
-        jet = '[[forces]]\nname = "jet"\ntype = "applied"\npoint = "b.origin"\naxes = "following"\nforce = [-100, 0]\n'
-        found = self.find_modes("{ polynomial = [0.0, 100.0] }", jet)
-        damped = sorted(mode["damped_frequency"] for mode in found["modes"])
-        self.assert_close(damped, np.sqrt([100.0, 110.0, 400.0]) / (2.0 * math.pi), relative=1e-6)
-        (text,) = (one["text"] for one in found["warnings"])
-        self.assertIn("the stiffness at rest is not symmetric", text)
-        self.assertEqual(self.find_modes("{ polynomial = [0.0, 100.0] }")["warnings"], [])
-
-    def test_a_kink_at_rest_is_told_beside_the_modes(self):
-        found = self.find_modes("{ table = [[-1.0, -100.0], [0.0, 0.0], [1.0, 400.0]] }")
-        (text,) = (one["text"] for one in found["warnings"])
-        self.assertEqual(
-            text, "'mount' changes its law at static equilibrium or very close to it: a mean slope is used"
-        )
-        self.assertEqual(self.find_modes("{ table = [[-1.0, -100.0], [0.2, 20.0], [1.0, 400.0]] }")["warnings"], [])
-
-
 class TorsionPendulum(VerificationCase):
     def test_spring_and_damper_about_an_axis(self):
         # J = 0.5, k = 2 · 40, c = 2 · 0.3: decaying oscillation about the free angle of 0.4 rad, from 0 at rest.
