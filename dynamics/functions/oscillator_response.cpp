@@ -96,8 +96,9 @@ OscillatorResponse by_recurrence(double stiffness, double decay, double time, in
     r.s_rate = 0.5 * (slow + fast) - decay * r.s;
   }
   double last = r.s_rate, current = r.s;
+  const double flexibility = 1.0 / stiffness;
   for (int k = 0; k <= top; ++k) {
-    const double next = (power_term(k, time) - 2.0 * decay * current - last) / stiffness;
+    const double next = flexibility * (power_term(k, time) - 2.0 * decay * current - last);
     r.forced[static_cast<std::size_t>(k)] = next;
     last = current;
     current = next;

@@ -7,8 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "tools/support/dense/wide_product.h"
-
 namespace sprung::dynamics {
 
 namespace {
@@ -251,8 +249,13 @@ void PartitionedEquations::calc_mass_columns(const std::vector<int>& freedoms,
 void PartitionedEquations::apply_mass(const Eigen::VectorXd& x, Eigen::VectorXd& product) const {
   product = x;
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-    const int first = model_->bodies[b].first_coordinate;
-    support::multiply(terms().mass(b), x.data() + first, product.data() + first);
+    const Body& body = model_->bodies[b];
+    auto of_body = product.segment(body.first_coordinate, body.num_coordinates());
+    of_body.setZero();
+    for (int i = 0; i < body.num_coordinates(); ++i) {
+      const double value = x[body.first_coordinate + i];
+      if (value != 0.0) of_body += value * terms().mass(b).col(i);  // few coordinates of a direction move
+    }
   }
 }
 

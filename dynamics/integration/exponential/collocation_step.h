@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "dynamics/integration/exponential/inertial_shear.h"
 #include "dynamics/integration/exponential/lobatto_step.h"
 
 namespace sprung::dynamics {
@@ -36,6 +37,8 @@ struct CollocationStep {
                          PairedMotion& motion) const;
 
   double start = 0.0, length = 0.0;  ///< [s]
+  ShearCourse shear;                 ///< of the pairs
+  ElasticMotion elastic;             ///< at the nodes
   PairedMotion motion;               ///< at the start
   Drive drive;
   PairedMotion quartic;      ///< coefficients of node_polynomial, estimated

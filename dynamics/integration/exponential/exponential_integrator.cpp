@@ -72,7 +72,6 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   y_dot_ = stage_y_ = error_sizes_ = between_y_ = y_;
   end_ = again_ = change_ = drive_at_ = truncated_ = at_switch_ = between_motion_ = now_.motion;
   stages_.fill(now_.motion);
-  past_motions_ = past_drives_ = Eigen::MatrixXd::Zero(now_.motion.u.size(), 3 + kNumNodes);
   between_ = LobattoPropagator(system.num_freedoms());
   propagators_.fill(between_);
 }
@@ -111,9 +110,11 @@ void ExponentialIntegrator::linearise() {
 void ExponentialIntegrator::update_pairs() {
   const bool remains = last_.length > 0.0 && version_ == system_.coordinate_version();
   error_change_.setZero(2 * system_.num_freedoms());
-  if (remains) coordinates_.to_state_change(vibration_error_.at_end(), error_change_);
+  if (remains) coordinates_.to_state_change(vibration_error_.at_end(), now_, 0.0, error_change_);
   coordinates_.update(small_motion_, system_.elastic_freedoms(), y_);
-  coordinates_.to_pair_change(error_change_, error_pairs_);
+  now_.shear = last_.shear = coordinates_.shear().no_course();
+  now_.elastic = last_.elastic = coordinates_.shear().no_motion();
+  coordinates_.to_pair_change(error_change_, now_, 0.0, error_pairs_);
   // Other coordinates do not add to an error. Nearly parallel pairs would, time and again.
   const double size = vibration_error_.at_end().norm(), changed = error_pairs_.norm();
   if (changed > size) error_pairs_ *= size / changed;
@@ -121,7 +122,7 @@ void ExponentialIntegrator::update_pairs() {
 }
 
 void ExponentialIntegrator::begin() {
-  coordinates_.to_pairs(y_, now_.motion);
+  coordinates_.to_pairs(y_, now_, now_.motion);
   stage_y_ = y_;
   if (!evaluate(time_, now_.motion, 0))
     throw_stopped(time_, "no accelerations can be found there: the position may be a singular one");
@@ -129,28 +130,22 @@ void ExponentialIntegrator::begin() {
   has_begun_ = true;
 }
 
-// Slower vibration is a polynomial over a step, to the accuracy of the drive.
-bool ExponentialIntegrator::has_fast_vibration() const {
-  return coordinates_.shear().is_useful() && coordinates_.highest_frequency() * now_.length > kFastVibration;
-}
-
-// Takes the shear of the pairs to the present inertia, with all that the next step uses of the last one.
-void ExponentialIntegrator::follow_inertia() {
-  if (!system_.calc_mass_columns(time_, y(), coordinates_.shear().others(), mass_columns_)) return;
-  if (!coordinates_.follow(mass_columns_)) return;
-  past_motions_.col(0) = now_.motion.u;
-  past_drives_.col(0) = now_.drive.pairs.col(0);
-  past_drives_.col(1) = last_.quartic.u;
-  past_motions_.col(2) = last_.motion.u;
-  for (int i = 1; i < kNumNodes; ++i) past_motions_.col(2 + i) = stages_[static_cast<std::size_t>(i)].u;
-  past_drives_.middleCols<kNumNodes>(2) = last_.drive.pairs;
-  past_motions_.col(2 + kNumNodes) = vibration_error_.at_end();
-  coordinates_.convert(past_motions_, past_drives_);
-  now_.motion.u = past_motions_.col(0);
-  now_.drive.pairs.col(0) = past_drives_.col(0);
-  last_.quartic.u = past_drives_.col(1);
-  last_.drive.pairs = past_drives_.middleCols<kNumNodes>(2);
-  vibration_error_.set_at_end(past_motions_.col(2 + kNumNodes));
+// The shear of now_ shall reach what inertia asks for where now_ is predicted to end. It stays where
+// vibration is slow: that is a polynomial over a step, to the accuracy of the drive. @return whether drives
+// have changed
+bool ExponentialIntegrator::aim_shear() {
+  const InertialShear& shear = coordinates_.shear();
+  if (!shear.is_useful()) return false;
+  const Eigen::MatrixXd* columns = nullptr;
+  if (coordinates_.highest_frequency() * now_.length > kFastVibration) {
+    PairedMotion& end = stages_.back();
+    now_.propagate(propagators_.back(), coordinates_.blocks(), end);
+    coordinates_.to_state(end, now_, now_.length, stage_y_);
+    const double end_time = now_.start + now_.length;
+    if (system_.calc_mass_columns(end_time, support::as_span(stage_y_), shear.others(), mass_columns_))
+      columns = &mass_columns_;
+  }
+  return coordinates_.aim_shear(columns, now_, last_);
 }
 
 // The drive at stage_y_, the state of `motion`.
@@ -158,7 +153,7 @@ bool ExponentialIntegrator::evaluate(double time, const PairedMotion& motion, in
   if (!stage_y_.allFinite() ||
       !system_.calc_derivative(time, support::as_span(stage_y_), support::as_span(y_dot_)))
     return false;
-  coordinates_.calc_drive(y_dot_, motion, now_.drive, node);
+  coordinates_.calc_drive(stage_y_, y_dot_, motion, node, now_);
   return switches_.is_empty() || switches_.evaluate(time, support::as_span(stage_y_), node);
 }
 
@@ -169,8 +164,9 @@ bool ExponentialIntegrator::iterate() {
     for (int i = 1; i < kNumNodes; ++i) {
       const auto node = static_cast<std::size_t>(i);
       now_.propagate(propagators_[node], coordinates_.blocks(), stages_[node]);
-      coordinates_.to_state(stages_[node], stage_y_);
-      if (!evaluate(now_.start + lobatto::node(i) * now_.length, stages_[node], i)) return false;
+      const double t = lobatto::node(i) * now_.length;
+      coordinates_.to_state(stages_[node], now_, t, stage_y_);
+      if (!evaluate(now_.start + t, stages_[node], i)) return false;
       if (sweep == 1) prediction_.correct(i, now_);
     }
     const double within = calc_change(1, again_), at_end = calc_change(kNumNodes - 1, end_);
@@ -192,7 +188,7 @@ double ExponentialIntegrator::calc_change(std::size_t node, PairedMotion& motion
   now_.propagate(propagators_[node], coordinates_.blocks(), motion);
   change_.u = motion.u - stages_[node].u;
   change_.w.setZero();
-  return coordinates_.calc_norm(change_);
+  return coordinates_.calc_norm(change_, now_);
 }
 
 // Coefficients of the part of fourth degree: by the drive at one more point, the third node of the step
@@ -222,7 +218,7 @@ double ExponentialIntegrator::calc_truncation() {
   double sum = 0.0;
   for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
     now_.propagate_quartic(propagators_[node], coordinates_.blocks(), truncated_);
-    const double size = coordinates_.calc_norm(truncated_);
+    const double size = coordinates_.calc_norm(truncated_, now_);
     sum += size * size;
   }
   return std::sqrt(sum);
@@ -245,7 +241,6 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
   coordinates_.set_allowed_error(tolerance_, error_sizes_);
   if (wants_linearisation_) linearise();
   if (!has_begun_) begin();
-  if (has_fast_vibration()) follow_inertia();
 
   double factor = 1.0;
   while (true) {
@@ -259,6 +254,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     }
     update_propagators();
     prediction_.predict(last_, past_, now_);
+    if (aim_shear()) prediction_.predict(last_, past_, now_);
     if (!iterate()) {
       give_up_iteration();
       continue;
@@ -330,14 +326,19 @@ bool ExponentialIntegrator::finish_step() {
   if (switches_.crosses()) {
     locate_switch();
     std::swap(now_, last_);
-    coordinates_.to_state(at_switch_, y_);
+    coordinates_.to_state(at_switch_, last_, time_ - last_.start, y_);
+    now_.shear = last_.shear;
+    now_.shear.go_on(time_ - last_.start);
     has_begun_ = false;
     return true;
   }
   time_ = end_time_ - now_.start <= now_.length ? end_time_ : now_.start + now_.length;
   now_.add_quartic(propagators_[kNumNodes - 1], coordinates_.blocks(), end_);
-  coordinates_.to_state(end_, y_);
+  coordinates_.to_state(end_, now_, now_.length, y_);
   std::swap(now_, last_);
+  now_.shear = last_.shear;
+  now_.shear.go_on(last_.length);
+  now_.elastic.start_from(kNumNodes - 1, last_.elastic);
   std::swap(now_.motion, end_);
   last_.calc_drive(1.0, drive_at_);
   now_.drive.set(0, drive_at_);
@@ -360,7 +361,7 @@ void ExponentialIntegrator::interpolate(double time, std::span<double> y) const 
   between_time_ = time;
   last_.propagate(between_, coordinates_.blocks(), between_motion_);
   last_.add_quartic(between_, coordinates_.blocks(), between_motion_);
-  coordinates_.to_state(between_motion_, between_y_);
+  coordinates_.to_state(between_motion_, last_, time - last_.start, between_y_);
   std::copy(between_y_.begin(), between_y_.end(), y.begin());
 }
 
@@ -374,7 +375,7 @@ bool ExponentialIntegrator::estimate_acceleration_error(double time, Eigen::Vect
   }
   error_rates_.setZero(error_pairs_.size());
   coordinates_.blocks().subtract_product(-error_pairs_, error_rates_);
-  coordinates_.to_state_change(error_rates_, error_change_);
+  coordinates_.to_state_change(error_rates_, last_, time - last_.start, error_change_);
   error = kErrorFactor * error_change_.tail(system_.num_freedoms());
   return true;
 }

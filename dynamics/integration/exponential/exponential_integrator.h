@@ -39,9 +39,8 @@ class ExponentialIntegrator final : public Integrator {
 
   void linearise();
   void begin();
-  bool has_fast_vibration() const;
   void update_pairs();
-  void follow_inertia();
+  bool aim_shear();
   double choose_length(double longest_step) const;
   bool evaluate(double time, const PairedMotion& motion, int node);
   void estimate_quartic();
@@ -89,7 +88,7 @@ class ExponentialIntegrator final : public Integrator {
   PairedMotion again_, change_;        // of a sweep: the motion at its second node anew, what has changed
   PairedMotion drive_at_, truncated_;  // a drive within a step; the effect of the quartic
   PairedMotion at_switch_;
-  Eigen::MatrixXd mass_columns_, past_motions_, past_drives_;  // for the shear of the pairs
+  Eigen::MatrixXd mass_columns_;  // for the shear of the pairs
   mutable LobattoPropagator between_;
   mutable double between_time_ = std::numeric_limits<double>::quiet_NaN();  // that it is for
   mutable PairedMotion between_motion_;

@@ -7,17 +7,6 @@
 
 namespace sprung::dynamics {
 
-namespace {
-
-// The indices, and those of the velocities that belong to them.
-std::vector<int> with_velocities(std::vector<int> indices, Eigen::Index num_freedoms) {
-  const std::size_t count = indices.size();
-  for (std::size_t k = 0; k < count; ++k) indices.push_back(indices[k] + static_cast<int>(num_freedoms));
-  return indices;
-}
-
-}  // namespace
-
 void InertialShear::start(const VibrationBasis& basis, const std::vector<int>& elastic,
                           const Eigen::MatrixXd& mass) {
   f_ = mass.rows();
@@ -29,17 +18,17 @@ void InertialShear::start(const VibrationBasis& basis, const std::vector<int>& e
   if (!is_useful()) return;
   const auto o = static_cast<Eigen::Index>(others_.size()), e = static_cast<Eigen::Index>(elastic_.size());
   factor_.resize(o, o);
-  ratio_.resize(o, e);
+  inverse_ = factor_;
+  coupling_.resize(e, o);
   has_inertia_ = calc_ratio(mass(Eigen::all, others_));
   first_ratio_ = ratio_;
-  shear_ = change_ = Eigen::MatrixXd::Zero(o, e);
-  elastic_positions_ = basis.T(elastic_, Eigen::all).transpose();
-  elastic_velocities_ = basis.T(with_velocities(elastic_, f_), Eigen::all).bottomRows(e).transpose();
-  change_rows_ = Eigen::MatrixXd::Zero(2 * o, 2 * f_);
-  other_columns_ = basis.inverse(Eigen::all, with_velocities(others_, f_));
+  other_columns_.resize(2 * f_, 2 * o);
+  other_columns_ << basis.inverse.leftCols(f_)(Eigen::all, others_),
+      basis.inverse.rightCols(f_)(Eigen::all, others_);
   elastic_motion_ = Eigen::VectorXd::Zero(e);
   other_motion_ = Eigen::VectorXd::Zero(2 * o);
-  loss_ = Eigen::VectorXd::Zero(2 * f_);
+  moved_ = Eigen::MatrixXd::Zero(o, 3);
+  loss_ = loss_rate_ = Eigen::VectorXd::Zero(2 * f_);
 }
 
 bool InertialShear::calc_ratio(const Eigen::MatrixXd& columns) {
@@ -48,47 +37,74 @@ bool InertialShear::calc_ratio(const Eigen::MatrixXd& columns) {
     for (std::size_t k = 0; k < others_.size(); ++k)
       factor_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = column[others_[k]];
     for (std::size_t k = 0; k < elastic_.size(); ++k)
-      ratio_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = column[elastic_[k]];
+      coupling_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = column[elastic_[k]];
   }
-  return support::solve_positive_definite_in_place(factor_, ratio_) && ratio_.allFinite();
+  inverse_.setIdentity();
+  if (!support::solve_positive_definite_in_place(factor_, inverse_)) return false;
+  ratio_ = coupling_.lazyProduct(inverse_).transpose();
+  return ratio_.allFinite();
 }
 
-bool InertialShear::follow(const Eigen::MatrixXd& columns) {
+bool InertialShear::calc_shear(const Eigen::MatrixXd& columns, Eigen::MatrixXd& shear) {
   if (!has_inertia_ || !calc_ratio(columns)) return false;
-  change_ = -shear_;
-  shear_ = first_ratio_ - ratio_;
-  change_ += shear_;
-  const Eigen::Index o = change_.rows();
-  for (Eigen::Index i = 0; i < o; ++i) {
-    elastic_motion_ = change_.row(i);
-    for (const Eigen::Index half : {Eigen::Index{0}, o}) {
-      support::multiply(half == 0 ? elastic_positions_ : elastic_velocities_, elastic_motion_.data(),
-                        loss_.data());
-      change_rows_.row(half + i) = loss_;
-    }
-  }
+  shear = first_ratio_ - ratio_;
   return true;
 }
 
-// u −= C (ΔG applied to the elastic motion of u), C = other_columns_. Few freedoms are not elastic, so the
-// rows of ΔG times T are found once for all columns.
-void InertialShear::convert(Eigen::MatrixXd& pairs) {
-  for (auto u : pairs.colwise()) {
-    support::multiply(change_rows_, u.data(), other_motion_.data());
-    support::multiply(other_columns_, other_motion_.data(), loss_.data());
-    u -= loss_;
-  }
-}
-
-void InertialShear::shift(double factor, double* state) const {
+// State q_o += ΔG q_e, v_o += ΔG v_e, or −=.
+void InertialShear::shift(double factor, const ShearCourse& course, double t, double* state) const {
   if (!is_useful()) return;
   for (double* half : {state, state + f_}) {
     for (std::size_t k = 0; k < elastic_.size(); ++k)
       elastic_motion_[static_cast<Eigen::Index>(k)] = half[elastic_[k]];
-    support::multiply(shear_, elastic_motion_.data(), other_motion_.data());
-    for (std::size_t i = 0; i < others_.size(); ++i)
-      half[others_[i]] += factor * other_motion_[static_cast<Eigen::Index>(i)];
+    support::multiply(course.rows(), elastic_motion_.data(), other_motion_.data());
+    const double *at_start = other_motion_.data(), *rate = at_start + others_.size();
+    for (std::size_t i = 0; i < others_.size(); ++i) half[others_[i]] += factor * (at_start[i] + t * rate[i]);
   }
+}
+
+ElasticMotion InertialShear::no_motion() const {
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(std::ssize(elastic_), lobatto::kNumNodes);
+  return {none, none, none};
+}
+
+void InertialShear::remove_from_derivatives(const ShearCourse& course, double t, const double* state,
+                                            double* derivatives, int node, ElasticMotion& motion) const {
+  if (!is_useful()) return;
+  double* positions = motion.positions.col(node).data();
+  double* velocities = motion.velocities.col(node).data();
+  double* accelerations = motion.accelerations.col(node).data();
+  for (std::size_t k = 0; k < elastic_.size(); ++k) {
+    positions[k] = state[elastic_[k]];
+    velocities[k] = state[f_ + elastic_[k]];
+    accelerations[k] = derivatives[f_ + elastic_[k]];
+  }
+  // What its rate adds to the derivatives, and what it adds as to a state.
+  shift(-1.0, course, t, derivatives);
+  const auto remove_rate = [&](const double* elastic, double* half) {
+    support::multiply(course.rows(), elastic, other_motion_.data());
+    const double* rate = other_motion_.data() + others_.size();
+    for (std::size_t i = 0; i < others_.size(); ++i) half[others_[i]] -= rate[i];
+  };
+  remove_rate(positions, derivatives);
+  remove_rate(velocities, derivatives + f_);
+}
+
+// A shear C of elastic motion x_e moves the pairs by −T⁻¹ (C x_e); here C is t times the change.
+void InertialShear::change_rate(const Eigen::MatrixXd& change, const ElasticMotion& motion, int node,
+                                double t, const PairBlocks& blocks, lobatto::NodeValues& drive) {
+  support::multiply(change, motion.positions.col(node).data(), moved_.col(0).data());
+  support::multiply(change, motion.velocities.col(node).data(), moved_.col(1).data());
+  support::multiply(change, motion.accelerations.col(node).data(), moved_.col(2).data());
+  const Eigen::Index o = moved_.rows();
+  other_motion_.head(o) = moved_.col(0) + t * moved_.col(1);
+  other_motion_.tail(o) = moved_.col(1) + t * moved_.col(2);
+  support::multiply(other_columns_, other_motion_.data(), loss_rate_.data());
+  other_motion_.head(o) = t * moved_.col(0);
+  other_motion_.tail(o) = t * moved_.col(1);
+  support::multiply(other_columns_, other_motion_.data(), loss_.data());
+  blocks.subtract_product(-loss_, drive.col(node));
+  drive.col(node) -= loss_rate_;
 }
 
 }  // namespace sprung::dynamics

@@ -24,27 +24,35 @@ class PairCoordinates {
   const InertialShear& shear() const { return shear_; }
   /// The highest angular frequency of the pairs [rad/s].
   double highest_frequency() const { return highest_frequency_; }
-  /// See InertialShear.
-  bool follow(const Eigen::MatrixXd& mass_columns) { return shear_.follow(mass_columns); }
-  /// Brings motions from before the last `follow`, and the drive at each, to the same ones after it.
-  /// @param[in,out] motions, drives  2f×n
-  void convert(Eigen::MatrixXd& motions, Eigen::MatrixXd& drives);
   const PairBlocks& blocks() const { return basis_.blocks; }
 
-  void to_pairs(const Eigen::VectorXd& y, PairedMotion& motion);
-  void to_state(const PairedMotion& motion, Eigen::VectorXd& y) const;
-  /// What a small change of the pairs changes in positions and velocities, and back. @param u, change  2f
-  void to_state_change(const Eigen::VectorXd& u, Eigen::VectorXd& change) const;
-  void to_pair_change(Eigen::VectorXd& change, Eigen::VectorXd& u) const;  ///< overwrites `change`
+  /// The shear of a step shall reach at its end what a mass matrix asks for. Its drive at the start and that
+  /// of the step before then hold for the new rate of the shear.
+  /// @param mass_columns  of the others, at the end; nullptr: the shear stays
+  /// @return false where nothing has changed
+  bool aim_shear(const Eigen::MatrixXd* mass_columns, CollocationStep& now, CollocationStep& last);
+
+  /// The pairs of the state at the start of a step.
+  void to_pairs(const Eigen::VectorXd& y, const CollocationStep& step, PairedMotion& motion);
+  /// The state that a motion of a step is, t seconds after its start.
+  void to_state(const PairedMotion& motion, const CollocationStep& step, double t, Eigen::VectorXd& y) const;
+  /// What a small change of the pairs then changes in positions and velocities, and back.
+  /// @param u, change  2f
+  void to_state_change(const Eigen::VectorXd& u, const CollocationStep& step, double t,
+                       Eigen::VectorXd& change) const;
+  void to_pair_change(Eigen::VectorXd& change, const CollocationStep& step, double t,
+                      Eigen::VectorXd& u) const;  ///< overwrites `change`
   /// The drive at a node of a step: the part of the derivatives ẏ that the pairs do not explain.
-  void calc_drive(const Eigen::VectorXd& y_dot, const PairedMotion& motion, Drive& drive, int node);
+  /// @param motion  that of the state y
+  void calc_drive(const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot, const PairedMotion& motion,
+                  int node, CollocationStep& step);
 
   /// The error allowed in each component of y is `tolerance` times its entry of `sizes`, > 0.
   void set_allowed_error(double tolerance, const Eigen::VectorXd& sizes) {
     inverse_allowed_ = (tolerance * sizes).cwiseInverse();
   }
   /// Root mean square over the components of y, each divided by the error allowed in it.
-  double calc_norm(const PairedMotion& difference);
+  double calc_norm(const PairedMotion& difference, const CollocationStep& step);
   /// An estimate of calc_norm from the pairs alone, with the errors allowed at the last `update`.
   template <class Pairs>
   double estimate_norm(const Pairs& difference) const {
@@ -55,10 +63,12 @@ class PairCoordinates {
   Eigen::Index f_ = 0;
   VibrationBasis basis_;
   InertialShear shear_;
-  Eigen::VectorXd origin_;           // f positions
-  Eigen::VectorXd inverse_allowed_;  // of y
-  Eigen::VectorXd pair_sizes_;       // 2f: what one of each pair adds to calc_norm
-  Eigen::VectorXd work_;             // of y
+  Eigen::VectorXd origin_;              // f positions
+  Eigen::VectorXd inverse_allowed_;     // of y
+  Eigen::VectorXd pair_sizes_;          // 2f: what one of each pair adds to calc_norm
+  Eigen::VectorXd work_;                // of y
+  Eigen::VectorXd derivatives_;         // of y
+  Eigen::MatrixXd rate_, rate_change_;  // of the shear, others × elastic
   double highest_frequency_ = 0.0;
 };
 

@@ -77,7 +77,7 @@ bool StepSwitches::may_hide(const CollocationStep& step, const Stages& stages,
   if (!is_richer) return false;
   for (std::size_t k = 0; k < kProbes.size(); ++k) {
     move_to_probe(step, coordinates, k);
-    coordinates.to_state(motion_, y_);
+    coordinates.to_state(motion_, step, kProbes[k] * step.length, y_);
     if (!evaluate_at(step.start + kProbes[k] * step.length, between_)) return true;
     for (Eigen::Index i = 0; i < values_.rows(); ++i) {
       if (SwitchCourse(values_.row(i)).may_hide(kProbes[k], between_[i])) return true;
@@ -100,7 +100,7 @@ double StepSwitches::locate(const CollocationStep& step, const PairCoordinates& 
   const double theta = search_.locate(lobatto::nodes(), values_, after, tolerance / step.length,
                                       [&](double at, Eigen::VectorXd& values) {
                                         move_to(at);
-                                        coordinates.to_state(motion, y_);
+                                        coordinates.to_state(motion, step, at * step.length, y_);
                                         const double time = step.start + at * step.length;
                                         if (!evaluate_at(time, values))
                                           throw_stopped(time, "no positions can be found there");
