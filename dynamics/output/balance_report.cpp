@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "dynamics/output/moving_bodies.h"
+#include "dynamics/output/resting_forces.h"
 #include "dynamics/output/section_report.h"
 #include "dynamics/section_loads/body_remarks.h"
-#include "dynamics/system/system_terms.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
@@ -17,25 +17,6 @@ namespace sprung::dynamics {
 using support::Json;
 
 namespace {
-
-// Computes the channels of the force elements at rest.
-struct RestingForces {
-  SystemTerms terms;
-  std::vector<int> branches;
-
-  RestingForces(const Model& model, const Eigen::VectorXd& q) : terms(model) {
-    terms.update_positions(0.0, q);
-    terms.update_velocities(Eigen::VectorXd::Zero(model.num_coordinates));
-    branches = terms.find_branches();
-  }
-  std::vector<double> channels(std::size_t force_index) const {
-    const Model& model = terms.model();
-    const ForceElement& force = *model.forces[force_index];
-    std::vector<double> values(force.channels().size());
-    force.calc_channels(terms.instant_of(force_index), model.branches_of(force_index, branches), values);
-    return values;
-  }
-};
 
 // Without those of the files, which were told when they were read.
 std::string format_warnings(const std::vector<RunWarning>& warnings) {
@@ -92,7 +73,7 @@ std::string format_equilibrium(const BalanceReport& report) {
     support::TextTable forces({"force element", "quantity", "value", "unit"});
     const RestingForces resting(report.model, equilibrium.q);
     for (std::size_t f = 0; f < report.model.forces.size(); ++f) {
-      const std::vector<double> values = resting.channels(f);
+      const std::vector<double> values = resting.calc_channels(f);
       for (std::size_t c = 0; c < values.size(); ++c) {
         const Channel& channel = report.model.forces[f]->channels()[c];
         if (channel.role == ChannelRole::kRate || channel.role == ChannelRole::kRoadHeight) continue;
@@ -115,7 +96,7 @@ Json make_equilibrium_json(const BalanceReport& report) {
   }
   const RestingForces resting(report.model, report.equilibrium.q);
   for (std::size_t f = 0; f < report.model.forces.size(); ++f) {
-    const std::vector<double> values = resting.channels(f);
+    const std::vector<double> values = resting.calc_channels(f);
     Json channels = Json::object();
     for (std::size_t c = 0; c < values.size(); ++c)
       channels[report.model.forces[f]->channels()[c].name] = values[c];

@@ -3,6 +3,7 @@
 #include "dynamics/output/choice_report.h"
 #include "dynamics/output/moving_bodies.h"
 #include "dynamics/output/resolved_model.h"
+#include "dynamics/output/resting_forces.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -76,6 +77,17 @@ void write_superelements(support::Hdf5Writer& file, const Vehicle& vehicle) {
   }
 }
 
+void write_resting_forces(support::Hdf5Writer& file, const Model& model, const Eigen::VectorXd& q) {
+  const RestingForces resting(model, q);
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    const std::string group = "/model/equilibrium/forces/" + model.forces[f]->name;
+    file.make_group(group);
+    const std::vector<double> values = resting.calc_channels(f);
+    for (std::size_t c = 0; c < values.size(); ++c)
+      file.attribute(group, std::string(model.forces[f]->channels()[c].name), values[c]);
+  }
+}
+
 void write_equilibrium(support::Hdf5Writer& file, const ResultsHeader& header) {
   const Model& model = header.model;
   const Eigen::VectorXd& q = header.equilibrium ? header.equilibrium->q : header.start.q;
@@ -96,6 +108,7 @@ void write_equilibrium(support::Hdf5Writer& file, const ResultsHeader& header) {
   file.attribute("/model/equilibrium", "is_static_equilibrium", std::int64_t{header.equilibrium != nullptr});
   file.write("/model/equilibrium/neutral",
              header.equilibrium ? header.equilibrium->describe_neutral() : std::vector<std::string>{});
+  if (header.equilibrium) write_resting_forces(file, header.balance_model, q);
 }
 
 void write_modes(support::Hdf5Writer& file, const ResultsHeader& header) {

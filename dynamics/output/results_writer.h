@@ -28,6 +28,7 @@ struct ResultsHeader {
   const Run& run;
   const Vehicle& vehicle;
   const Model& model;
+  const Model& balance_model;  ///< the same on level ground
   const PlacedRoad& road;
   const State& start;
   std::vector<std::string> overrides;             ///< assignments of the command line, as given

@@ -136,6 +136,7 @@ ResultsHeader make_header(const PreparedRun& prepared, const RunRequest& request
   return {prepared.run,
           prepared.vehicle,
           prepared.model,
+          prepared.balance_model,
           prepared.placed_road,
           prepared.start,
           request.overrides,

@@ -18,7 +18,8 @@ from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.fatigue import calc_fatigue
 from sprung_tools.runs.measures import list_objects, measure_stresses
 from sprung_tools.runs.section_stress import calc_section_stress, list_stressed_bodies
-from sprung_tools.signals.fatigue_damage import StrengthLine
+from sprung_tools.signals.fatigue_damage import StrengthLine, calc_damage, calc_range
+from sprung_tools.signals.rainflow import Cycles
 from sprung_tools.study.storage import choose_storage
 
 STATIONS = np.array([(2.0, 0.0), (0.0, 0.0), (-2.0, 0.0), (0.0, 0.0)])  # the first element runs towards -x
@@ -127,6 +128,15 @@ class Fatigue(ToolTestCase):
         self.assertEqual(fatigue.worst[0], 3)
         np.testing.assert_allclose(doubled.damage[2:], 8.0 * fatigue.damage[2:], rtol=1e-12)
 
+    def test_two_million_cycles_at_the_category_end_the_life_wherever_the_knee_is(self):
+        """With a knee at 1e6 they did a damage of 0.63."""
+        for knee in (5e5, 1e6, 2e6, 5e6):
+            for slopes in ((3.0, 5.0), (4.0, 4.0)):
+                line = StrengthLine(71e6, slopes, knee)
+                cycles = Cycles(np.array([71e6]), np.array([0.0]), np.array([2e6]))
+                self.assertAlmostEqual(calc_damage(line, cycles), 1.0, places=12)
+                self.assertAlmostEqual(calc_range(line, 2e6), 71e6, places=3)
+
     def test_the_mean_stress_of_the_axial_force_counts_by_goodmans_line(self):
         with open_results(write_loads(self.folder / "a.h5")) as results:
             plain = calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE)
@@ -217,8 +227,8 @@ class FatigueCommand(ToolTestCase):
             (("a.h5", "--category", "71", "--slopes", "3", "inf", "--json"), "--slopes: error: is inf, expected a"),
             # (100 MPa / 1e-300 MPa)³ and more are beyond the largest number of 64 bits, 1.8e308.
             (("a.h5", "--category", "1e-300"), "at 0 m of 'body', the damage of ranges up to 40 MPa is inf, expected"),
-            # (2·10⁶/10⁶)^(1/m₁) and its inverse with m₁ = 1e-4 are 2^10000 and 0 in 64 bits.
-            (("a.h5", "--category", "71", "--slopes", "1e-4", "5", "--knee", "1e6"), "at 1e+06 cycles is inf Pa"),
+            # (2·10⁶/10⁶)^(1/m₂) and (2·10⁶/5·10⁶)^(1/m₁) with a slope of 1e-4 are inf and 0 in 64 bits.
+            (("a.h5", "--category", "71", "--slopes", "5", "1e-4", "--knee", "1e6"), "at 1e+06 cycles is inf Pa"),
             (("a.h5", "--category", "71", "--slopes", "1e-4", "5"), "the line's range at 5e+06 cycles is 0 Pa"),
             (
                 ("a.h5", "--category", "71", "--at", "arm:0"),

@@ -25,6 +25,7 @@ from sprung_tools.runs.ride_measures import (
     calc_contact,
     calc_travel,
     find_suspensions,
+    list_row_remarks,
     read_window,
 )
 from sprung_tools.runs.section_stress import FROM_LOADS
@@ -91,6 +92,43 @@ class RideMeasures(ToolTestCase):
         self.assertAlmostEqual(contact.off_ground, 2.0 * (0.5 - np.arcsin(0.8) / np.pi), delta=4 * STEP)
         self.assertAlmostEqual(contact.unloaded, 2.0 * (0.5 - np.arcsin(2.0 / 3.0) / np.pi), delta=4 * STEP)
         self.assertAlmostEqual(contact.dynamic_rms / calc_dynamic_load(), 1.0, delta=1e-3)
+
+    def test_histories_stored_at_some_outputs_are_judged_by_their_rows(self):
+        """What was interpolated between them lowered the r.m.s., and left the tyre on the ground for most of its time
+        in the air."""
+        every = 50
+        path = write_ride_results(self.folder / "thin.h5")
+        with h5py.File(path, "a") as file:
+            for name in ("forces/tyre/force", "forces/tyre/contact", "forces/suspension/deflection"):
+                rows, attributes = file[name][::every], dict(file[name].attrs)
+                del file[name]
+                file[name] = rows
+                file[name].attrs.update({**attributes, "every": every})
+        row_step = every * STEP
+        sine = np.sin(2.0 * np.pi * row_step * np.arange(round(1.0 / row_step), round(3.0 / row_step) + 1))
+        load = STATIC_LOAD * np.maximum(0.0, 1.0 + 1.5 * sine)
+        with open_results(path) as results:
+            contact, travel = calc_contact(results, "tyre", WINDOW), calc_travel(results, "suspension", WINDOW)
+            (remark,) = list_row_remarks(results)
+        self.assertAlmostEqual(contact.dynamic_rms, np.sqrt(np.mean((load - STATIC_LOAD) ** 2)), places=6)
+        self.assertAlmostEqual(contact.off_ground, row_step * np.count_nonzero(sine <= -0.8), places=12)
+        self.assertAlmostEqual(contact.unloaded, row_step * np.count_nonzero(load <= 0.0), places=12)
+        self.assertAlmostEqual(travel.stopped, row_step * np.count_nonzero(0.06 + 0.1 * sine > 0.15), places=12)
+        self.assertIn("judged by rows every 50 ms", remark)
+        process = self.run_tool("report_peaks", "thin.h5", "--show", "forces/tyre/force", "--from", "1", "--to", "3")
+        self.assertEqual(process.stdout.splitlines()[-1].split()[-2], f"{np.sqrt(np.mean(load**2)):.5g}")
+
+    def test_static_values_are_those_in_equilibrium_where_the_file_has_them(self):
+        """They were those at the start, where the vehicle moves already or a wheel stands on an obstacle."""
+        path = write_ride_results(self.folder / "a.h5")
+        with h5py.File(path, "a") as file:
+            file.create_group("model/equilibrium/forces/tyre").attrs["force"] = 4e4
+            file.create_group("model/equilibrium/forces/suspension").attrs["deflection"] = 0.05
+        with open_results(path) as results:
+            self.assertEqual(calc_contact(results, "tyre", WINDOW).static, 4e4)
+            travel = calc_travel(results, "suspension", WINDOW)
+        self.assertAlmostEqual(travel.compression, STATIC_DEFLECTION + 0.1 - 0.05, places=9)
+        self.assertAlmostEqual(travel.whole, 0.15 - 0.05, places=12)
 
     def test_the_largest_moment_keeps_its_sign_its_place_and_its_time(self):
         bending = find_best_peak(self.open(), "body", MOMENT, (1.2, 2.8))

@@ -140,6 +140,24 @@ class Rows(StudyCase):
         said = "largest values may be larger than measured: forces stored every 50 ms"
         self.assertIn(said, self.read_table()[0]["warnings"])
 
+    def test_a_named_point_keeps_its_measures_beside_a_pattern(self):
+        """It was said that no run has them."""
+        self.write_study('measures = ["points/sprung.origin/rms", "points/*/wk_rms"]\n[set]\nduration = 0.5\n'
+                         f'{HEIGHT}values = [0.05]\n')  # fmt: skip
+        process = self.study()
+        self.assertEqual((process.returncode, find_complaints(process.stderr)), (0, []))
+        (row,) = self.read_table()
+        for column in ("points/sprung.origin/rms [m/s^2]", "points/sprung.center_of_mass/wk_rms [m/s^2]"):
+            self.assertGreater(float(row[column]), 0.0)
+
+    def test_what_makes_a_measure_doubtful_is_a_warning_of_the_row(self):
+        for measure, is_said in (("mtvv", True), ("wk_rms", False)):
+            shutil.rmtree(self.folder / "out", ignore_errors=True)
+            self.write_study(f'measures = ["points/sprung.origin/{measure}"]\n[set]\nduration = 0.5\n'
+                             f'{HEIGHT}values = [0.05]\n')  # fmt: skip
+            self.assertEqual(self.study().returncode, 0)
+            self.assertEqual("the MTVV is too low" in self.read_table()[0]["warnings"], is_said)
+
     def test_a_folder_with_a_table_of_something_else_is_refused(self):
         (self.folder / "out").mkdir()
         (self.folder / "out/table.csv").write_text("mine", encoding="utf-8")

@@ -16,10 +16,12 @@ from sprung_tools.runs.measures import (
     UNKNOWN,
     Measures,
     calc_measures,
+    find_points,
     is_converged,
     list_linear_objects,
     list_objects,
 )
+from sprung_tools.runs.ride_assessment import list_band_remarks, list_remarks
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_warnings
 
@@ -140,6 +142,15 @@ class Results:
         window = read_window(self._file, start, end)
         folder = None if superelements is None else str(superelements)
         return calc_measures(list_objects(self._file, window, points, folder))
+
+    def remarks(
+        self, points: Sequence[str] = (), *, start: float | None = None, end: float | None = None
+    ) -> list[str]:
+        """What makes measures over a span doubtful, as a span that is too short for the MTVV, beside `warnings`.
+        points, start, end: as of measures()."""
+        window = read_window(self._file, start, end)
+        judged = find_points(self._file, points)
+        return [*list_remarks(self._file, judged, window), *list_band_remarks(self._file, judged, window)]
 
     def measure(self, name: str) -> float:
         """One measure over the span of the run's statistics; only its object is computed. InputError if there is no

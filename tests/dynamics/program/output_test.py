@@ -56,6 +56,16 @@ class Results(DynamicsTestCase):
                 self.assertIn("unit", dataset.attrs, name)
                 self.assertTrue(dataset.fletcher32, name)
 
+    def test_forces_in_equilibrium_are_those_of_the_command(self):
+        """Also where the run starts on an obstacle, and moves already."""
+        self.assertEqual(self.run_to_results("--set", "road={shape=\"ramp\",start=0.0,length=5.0,height=1.0}").returncode, 0)
+        process = self.run_program("--json", verb="equilibrium")
+        expected = json.loads(process.stdout)["forces"]
+        with h5py.File(self.results, "r") as file:
+            found = {name: dict(group.attrs) for name, group in file["model/equilibrium/forces"].items()}
+            self.assertNotEqual(file["forces/front_tyre/force"][0], found["front_tyre"]["force"])
+        self.assertEqual(found, expected)
+
     def test_the_kinds_of_vectors_are_those_of_the_superelement(self):
         modes = ("--set", "vehicle.bodies.chassis.superelement=chassis_certified", "--set", "modes.chassis=all")
         self.assertEqual(self.run_to_results(*modes).returncode, 0)

@@ -21,8 +21,8 @@ HEADINGS = ("quantity", "run", "least", "at s", "greatest", "at s", "r.m.s.", "u
 
 
 def calc_row(run: Run, shown: Shown, start: float | None, end: float | None) -> tuple[str, ...]:
-    """A row of the table: the statistics of a quantity over the samples from start to end [s]."""
-    inside = samples_between(run.results, start, end)
+    """A row of the table: the statistics of a quantity over its stored rows from start to end [s]."""
+    inside = samples_between(run.results, start, end, run.results.every(shown.quantity))
     time = run.results.time[inside]
     values, unit = run.results.series(shown.quantity)
     values = values[inside]

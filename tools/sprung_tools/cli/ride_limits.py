@@ -38,7 +38,7 @@ from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.progress_bar import Progress
 from sprung_tools.terminal.text_table import format_table
 
-JSON_FORMAT, JSON_VERSION = "sprung-ride-limits", 1  # tools/README.md, "Ride limits"
+JSON_FORMAT, JSON_VERSION = "sprung-ride-limits", 2  # tools/README.md, "Ride limits"
 BAND = (0.0547, 3.3)  # 1/m
 Task = tuple[Callable[..., Root], Vehicle, Terrain | Obstacles, float]
 KMH = 3.6

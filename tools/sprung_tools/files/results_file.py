@@ -139,13 +139,22 @@ class ResultsFile:
             self._motions[derived.body] = read_body_motion(self.file, derived.body)
         return calc_derived(self.file, derived, self._motions)
 
-    def check_every_output(self, quantity: str) -> None:
-        """Throws InputError if the dataset behind a quantity is not stored at every output: for spectra, filters and
-        counts interpolation is not enough."""
+    def _find_stored(self, quantity: str) -> str:
+        """The dataset behind a quantity; of a point that is not stored, that of its body."""
         dataset = parse_quantity(quantity).dataset
         if not self.file.has_dataset(dataset):
             derived = find_derived(self.file, dataset)
             dataset = f"bodies/{derived.body}/acceleration" if derived else dataset
+        return dataset
+
+    def every(self, quantity: str) -> int:
+        """The number of outputs from one stored row of a quantity to the next. What stands between is interpolated."""
+        return self.file.every(self._find_stored(quantity))
+
+    def check_every_output(self, quantity: str) -> None:
+        """Throws InputError if the dataset behind a quantity is not stored at every output: for spectra, filters and
+        counts interpolation is not enough."""
+        dataset = self._find_stored(quantity)
         every = self.file.every(dataset)
         if every > 1:
             step = float(np.median(np.diff(self.time)))

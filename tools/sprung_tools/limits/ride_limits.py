@@ -45,11 +45,11 @@ class Obstacles(NamedTuple):
 
 
 def calc_power(vehicle: Vehicle, terrain: Terrain, speed: float, roughness: float) -> float:
-    """The mean absorbed power [W] while the leading wheel is on the terrain between its eased ends. CallFailed for a
-    run that one cannot use."""
-    recipe = terrain.recipe._replace(rms=roughness)
+    """The mean absorbed power [W] while the leading wheel is on the terrain between its eased ends, where the roughness
+    is its r.m.s. [m]. CallFailed for a run that one cannot use."""
+    recipe = terrain.recipe
     begin, end = (AHEAD + place for place in (recipe.ease, recipe.length - recipe.ease))
-    felt = vehicle.drive(speed, make_terrain(recipe), end / speed)
+    felt = vehicle.drive(speed, make_terrain(recipe, roughness), end / speed)
     felt.check_speed(speed, begin, end)
     power = calc_absorbed_power(felt.acceleration, felt.step)
     return float(np.mean(power[round(begin / speed / felt.step) :]))

@@ -11,18 +11,30 @@ samples of the road, and steps, of the finest detail that the road has. With 80 
 within 0.1 % of those with 200.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.signals.road_profile import Recipe, format_profile, make_profile
+from sprung_tools.signals.road_profile import Recipe, calc_rms, format_profile, make_profile
 
 SAMPLES, EQUAL_SAMPLES = 200, 80  # intervals of an obstacle: of (2), of (1)
 RUN_OUTS = (1.0, 1000.0)  # m, ends of the level road in the table behind it, which no run leaves
 
 
-def make_terrain(recipe: Recipe) -> str:
-    """The road of a recipe. InputError for a recipe that makes none."""
-    return format_profile(recipe, make_profile(recipe), "tools/ride_limits")
+@lru_cache
+def find_share_between_ends(recipe: Recipe) -> float:
+    """The r.m.s. of a recipe's profile between its eased ends, about the mean there, over that of all its points."""
+    profile = make_profile(recipe._replace(rms=1.0))
+    is_between = (profile.distance >= recipe.ease) & (profile.distance <= recipe.length - recipe.ease)
+    return calc_rms(profile.height[is_between], 0.0)
+
+
+def make_terrain(recipe: Recipe, roughness: float) -> str:
+    """The road of a recipe with the r.m.s. height `roughness` [m] between its eased ends, whatever the recipe has.
+    InputError for a recipe that makes none."""
+    scaled = recipe._replace(rms=roughness / find_share_between_ends(recipe))
+    return format_profile(scaled, make_profile(scaled), "tools/ride_limits")
 
 
 def calc_obstacle(height: float, wheel_radius: float | None) -> tuple[Floats, Floats]:

@@ -121,34 +121,40 @@ def turn_into_body(vectors: Floats, angle: Floats) -> Floats:
     return np.stack([cos * vectors[:, 0] + sin * vectors[:, 1], cos * vectors[:, 1] - sin * vectors[:, 0]], axis=1)
 
 
-def collect_loads(results: ResultsFile, body: str) -> list[tuple[Point, Floats]]:
-    """The loads on a body's points: (point, [m×3] force x, y and torque, world axes)."""
-    loads: list[tuple[Point, Floats]] = []
+def list_loads(results: ResultsFile, body: str) -> list[tuple[Point, str]]:
+    """The loads on a body's points: (point, dataset [m×3] of force x, y and torque, world axes)."""
+    named = [
+        (joint.points[role], f"joints/{joint.name}/{dataset}")
+        for joint in read_elements(results, "joints").values()
+        for role, dataset in (("a", "reaction"), ("b", "reaction_b"))
+    ]
+    named += [
+        (name, f"forces/{force.name}/on_{role}")
+        for force in read_elements(results, "forces").values()
+        for role, name in force.points.items()
+    ]
+    loads = [(read_point(results, name), dataset) for name, dataset in named]
+    return [(point, dataset) for point, dataset in loads if point.body == body]
 
-    def add(name: str, dataset: str) -> None:
-        point = read_point(results, name)
-        if point.body == body:
-            loads.append((point, read_numbers(results.file, dataset)[0]))
 
-    for joint in read_elements(results, "joints").values():
-        for role, dataset in (("a", "reaction"), ("b", "reaction_b")):
-            add(joint.points[role], f"joints/{joint.name}/{dataset}")
-    for force in read_elements(results, "forces").values():
-        for role, name in force.points.items():
-            add(name, f"forces/{force.name}/on_{role}")
-    return loads
+def find_common_rows(results: ResultsFile, body: str) -> int:
+    """The number of outputs from one row to the next at which all that the moments follow from is stored: loads that
+    are interpolated do not balance a motion that is not."""
+    motion = [f"bodies/{body}/{what}" for what in ("position", "velocity", "acceleration")]
+    every = [results.file.every(name) for name in [*motion, *(dataset for _, dataset in list_loads(results, body))]]
+    return int(np.lcm.reduce(every))
 
 
 def calc_rigid_moments(results: ResultsFile, body: str, superelement: Superelement) -> tuple[Floats, Floats]:
     """The bending moments of a rigid body by (1), or by (2) where the file of its superelement has no section loads.
     Returns (moments [m×stations] N·m, stations [stations×2] m) in the layout of /recovery: both ends of each element.
-    InputError if the superelement is not the run's.
+    They hold at the rows that find_common_rows() tells. InputError if the superelement is not the run's.
     """
     check_same(results, body, superelement)
     motion = read_motion(results, body)
     wrenches = [
         (point, np.column_stack([turn_into_body(wrench[:, :2], motion.angle), wrench[:, 2]]))
-        for point, wrench in collect_loads(results, body)
+        for point, wrench in ((point, read_numbers(results.file, name)[0]) for point, name in list_loads(results, body))
     ]  # fmt: skip
     if superelement.section_loads is None:
         moments = calc_modal_moments(motion, wrenches, superelement)

@@ -79,15 +79,17 @@ def describe(results: ResultsFile) -> str:
     return ", ".join(f"{body} {count_vectors(read_vectors(results, body))}" for body in flexible) or "rigid"
 
 
-def samples_between(results: ResultsFile, start: float | None, end: float | None) -> Flags:
-    """Which samples lie from `start` to `end` [s]; None stands for the run's begin or end. InputError if there are
-    none."""
+def samples_between(results: ResultsFile, start: float | None, end: float | None, every: int = 1) -> Flags:
+    """Which samples lie from `start` to `end` [s]; None stands for the run's begin or end. every: of a history whose
+    rows are stored at each such output only, those rows: between them it is interpolated, and an r.m.s. of that would
+    be too small. InputError if there are none."""
     first = results.time[0] if start is None else start
     last = results.time[-1] if end is None else end
-    inside = (results.time >= first) & (results.time <= last)
+    inside = (results.time >= first) & (results.time <= last) & (np.arange(results.time.size) % every == 0)
     if not np.any(inside):
+        kind = "samples" if every == 1 else f"rows, of which every {every} samples have one,"
         raise InputError(
-            f"{results.path}: error: no samples from {first:g} to {last:g} s; the run has those from "
+            f"{results.path}: error: no {kind} from {first:g} to {last:g} s; the run has those from "
             f"{results.time[0]:g} to {results.time[-1]:g} s"
         )
     return inside

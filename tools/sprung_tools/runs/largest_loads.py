@@ -10,11 +10,16 @@ from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers, read_real
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.model.rigid_body_loads import Superelement, calc_rigid_moments, has_all_loads, read_superelement
+from sprung_tools.model.rigid_body_loads import (
+    Superelement,
+    calc_rigid_moments,
+    find_common_rows,
+    has_all_loads,
+    read_superelement,
+)
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.section_stress import ENDINGS, FROM_LOADS, FROM_MODES
-from sprung_tools.runs.stored_histories import find_row_step
 from sprung_tools.signals.spans import Span
 
 LONGITUDINAL = 0  # the column of x in a station's position
@@ -31,12 +36,14 @@ class Peak(NamedTuple):
     step: float = 0.0
 
 
-def find_peak(results: ResultsFile, values: Floats, stations: Floats, window: Span) -> Peak:
-    """Where and when loads [n×stations] are largest. stations: their positions in the body frame [stations×2] m."""
-    inside = np.flatnonzero(samples_between(results, *window))
+def find_peak(results: ResultsFile, values: Floats, stations: Floats, window: Span, every: int = 1) -> Peak:
+    """Where and when loads [n×stations] are largest. stations: their positions in the body frame [stations×2] m;
+    every: as samples_between() takes it."""
+    inside = np.flatnonzero(samples_between(results, *window, every))
     row, column = np.unravel_index(np.argmax(np.abs(values[inside])), (inside.size, values.shape[1]))
     sample = inside[row]
-    return Peak(float(values[sample, column]), float(stations[column, LONGITUDINAL]), float(results.time[sample]))
+    step = every * float(np.median(np.diff(results.time))) if every > 1 else 0.0
+    return Peak(float(values[sample, column]), float(stations[column, LONGITUDINAL]), float(results.time[sample]), step)
 
 
 def has_load(results: ResultsFile, body: str, load: str, source: str) -> bool:
@@ -88,7 +95,7 @@ def calc_peak(results: ResultsFile, body: str, load: str, source: str, window: S
     dataset = f"recovery/{body}/{load}{ENDINGS[source]}"
     values, _ = read_numbers(results.file, dataset)
     stations, _ = read_numbers(results.file, f"recovery/{body}/station")
-    return find_peak(results, values, stations, window)._replace(step=find_row_step(results, dataset))
+    return find_peak(results, values, stations, window, results.file.every(dataset))
 
 
 def find_best_peak(results: ResultsFile, body: str, load: str, window: Span) -> Peak | None:
@@ -104,7 +111,8 @@ def find_bending(results: ResultsFile, body: str, window: Span, superelements: s
     superelement = open_missing(results, body, superelements)
     if superelement is None:
         return find_best_peak(results, body, MOMENT, window)
-    return find_peak(results, *calc_rigid_moments(results, body, superelement), window)
+    every = find_common_rows(results, body)
+    return find_peak(results, *calc_rigid_moments(results, body, superelement), window, every)
 
 
 def open_missing(results: ResultsFile, body: str, superelements: str | None) -> Superelement | None:

@@ -36,6 +36,7 @@ from sprung_tools.runs.ride_measures import (
     find_suspensions,
     find_tyres,
     list_seats,
+    read_window,
     sampling_step,
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, calc_linear_bands, list_points
@@ -121,7 +122,7 @@ def list_objects(
 ) -> Objects:
     """What a run has measures of. points: BODY.POINT to judge, as find_points() takes them; superelements: folder of
     the superelement files, for the moments of rigid bodies."""
-    objects: Objects = {"summary": partial(read_summary, results)}
+    objects: Objects = {"summary": partial(read_summary, results, window)}
     for folder in find_points(results, points):
         name = f"points/{point_name(folder)}"
         objects[name] = partial(measure_point, results, name, folder, window)
@@ -217,9 +218,10 @@ def measure_stresses(results: ResultsFile, body: str, window: Span) -> Measures:
     return combine(f"stresses/{body}", STRESS_UNITS, map(float, values))
 
 
-def read_summary(results: ResultsFile) -> Measures:
-    """Everything in /summary, which sprung-dynamics computed."""
-    groups = {"summary": "", **{f"summary/points/{name}": "" for name in results.names("summary/points")}}
+def read_summary(results: ResultsFile, window: Span) -> Measures:
+    """Everything in /summary, which sprung-dynamics computed; what it has of points only for the span of its own."""
+    points = results.names("summary/points") if window == read_window(results) else []
+    groups = {"summary": "", **{f"summary/points/{name}": "" for name in points}}
     return {
         f"{group}/{key}": Measure(read_real(results.file, group, key), MOTION_UNITS.get(key.partition("_")[0], "1"))
         for group in groups if results.file.has_group(group) for key in results.file.attributes(group)
@@ -333,6 +335,6 @@ def list_history_objects(results: ResultsFile, window: Span, wanted: Iterable[st
 def measure_history(results: ResultsFile, name: str, window: Span) -> Measures:
     """Lowest, highest, r.m.s. and mean value of a quantity over a span of time."""
     values, unit = results.series(name.removeprefix(HISTORIES))
-    values = values[samples_between(results, *window)]
+    values = values[samples_between(results, *window, results.every(name.removeprefix(HISTORIES)))]
     found = {"min": values.min(), "max": values.max(), "rms": calc_rms(values), "mean": values.mean()}
     return combine(name, dict.fromkeys(found, unit), found.values())

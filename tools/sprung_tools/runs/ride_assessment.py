@@ -18,7 +18,7 @@ from sprung_tools.files.point_motion import CENTRE
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import read_point
 from sprung_tools.runs.labelled_runs import samples_between
-from sprung_tools.runs.ride_measures import list_static_remarks, sampling_step
+from sprung_tools.runs.ride_measures import list_row_remarks, list_static_remarks, sampling_step
 from sprung_tools.runs.rounding import calc_size, clear_rounding, read_acceleration
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import (
@@ -93,19 +93,23 @@ def find_pitch_gap(results: ResultsFile, point: str) -> str:
     return f"'{dataset}' is not stored at every output" if results.file.every(dataset) > 1 else ""
 
 
-def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:
+def list_remarks(
+    results: ResultsFile, points: Sequence[str], window: Span, *, with_mtvv: bool = True
+) -> list[str]:
     """Which measures of points are left out because the samples are too few, or because the file does not tell the
     rotation of their bodies, and why; whether the span is too short for the MTVV, or begins while the weightings lack
-    the vibration before the run; and what is said of values in static equilibrium."""
+    the vibration before the run; and what is said of values in static equilibrium and of tyres and suspensions.
+    with_mtvv: whether that measure is asked for."""
     gaps = {point: find_pitch_gap(results, point) for point in points}
     fault = describe_fault(sampling_step(results)) if points else ""
     if fault:
         names = ", ".join(map(point_name, points))
-        return [f"{names}: without the weighted values and the absorbed power: {fault}", *list_static_remarks(results)]
+        return [f"{names}: without the weighted values and the absorbed power: {fault}",
+                *list_static_remarks(results), *list_row_remarks(results)]  # fmt: skip
     remarks = [f"{point_name(point)}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
     times = results.time[samples_between(results, *window)]
     length = float(times[-1] - times[0])
-    if points and length < RUNNING * (1.0 - ROUNDING):
+    if points and with_mtvv and length < RUNNING * (1.0 - ROUNDING):
         remarks.append(
             f"the MTVV is the largest r.m.s. over {RUNNING:g} s, and the span has only {length:.3g} s: what is missing "
             "counts as 0, so that the MTVV is too low"
@@ -117,7 +121,7 @@ def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> l
             f"the MTVV and the other weighted values hold from {settled:.4g} s on (--from), when {100.0 * LEFT:g} % is "
             "left of it in the filters"
         )
-    return remarks + list_static_remarks(results)
+    return remarks + list_static_remarks(results) + list_row_remarks(results)
 
 
 def list_band_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:

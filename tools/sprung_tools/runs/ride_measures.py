@@ -6,12 +6,14 @@ import numpy as np
 
 from sprung_tools.files.array_types import Flags, Floats
 from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import read_real
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
     CONTACT,
     DEFLECTION,
     EXTENT,
     FORCE,
+    find_force_channel,
     list_force_channels,
     read_force_channel,
 )
@@ -139,10 +141,11 @@ def find_suspensions(results: ResultsFile) -> dict[str, str]:
 def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
     """How far a suspension, named as find_suspensions() does, moves from its balance. The stop counts as struck where a
     sample is beyond it."""
-    inside = samples_between(results, *window)
     quantity = find_suspensions(results)[name]
+    every = results.every(quantity)
+    inside = samples_between(results, *window, every)
     deflection, _ = results.series(quantity)
-    static = calc_static(results, deflection, inside)
+    static = calc_static(results, quantity, deflection, inside)
     element = read_element(results, "forces", quantity.split("/")[1])
     stop = 0.0 if element.kind == END_STOP else element.parameters.get("compression_stop")
     deflection = deflection[inside]
@@ -155,16 +158,33 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
         None if static is None else float(travel.min()),
         None if stop is None or static is None else stop - static,
         None if stop is None else hits,
-        float(np.count_nonzero(struck) * sampling_step(results)),
+        float(np.count_nonzero(struck) * every * sampling_step(results)),
     )
 
 
-def calc_static(results: ResultsFile, values: Floats, inside: Flags) -> float | None:
-    """A quantity's value in static equilibrium: its first value if the run starts there; its mean over the span if
-    equilibrium was not sought. None if the run continues another one: the file then holds no value in equilibrium."""
+def calc_static(results: ResultsFile, quantity: str, values: Floats, inside: Flags) -> float | None:
+    """The value of a force element's channel in static equilibrium on level ground; its mean over the span if
+    equilibrium was not sought. A file of an older program does not hold it: there it is the first value, and None if
+    the run continues another one. quantity: as `forces/front_tyre/force`"""
     if not results.is_from_balance:
         return float(np.mean(values[inside]))
+    _, element, channel = quantity.split("/")
+    group = f"model/equilibrium/forces/{element}"
+    if results.file.has_group(group):
+        return read_real(results.file, group, channel)
     return None if results.is_continued else float(values[0])
+
+
+def list_row_remarks(results: ResultsFile) -> list[str]:
+    """That suspensions and tyres are judged by few rows, if they are."""
+    judged = [*find_suspensions(results).values(), *(f"forces/{name}/{FORCE}" for name in find_tyres(results))]
+    every = max((results.every(quantity) for quantity in judged), default=1)
+    if every == 1:
+        return []
+    return [
+        f"suspensions and tyres are judged by rows every {1e3 * every * sampling_step(results):g} ms: what lies "
+        "between, such as the largest load and short times off the ground, is not seen"
+    ]
 
 
 def list_static_remarks(results: ResultsFile) -> list[str]:
@@ -176,7 +196,7 @@ def list_static_remarks(results: ResultsFile) -> list[str]:
             "static equilibrium was not sought: static loads are mean values over the span, and travel counts from "
             "mean deflections"
         ]
-    if results.is_continued:
+    if results.is_continued and not results.file.has_group("model/equilibrium/forces"):
         return [
             f"static loads and travel are not known: the run continues another one from {results.time[0]:.6g} s on, "
             "and its file holds neither loads nor deflections in static equilibrium; those of the first run do"
@@ -187,12 +207,15 @@ def list_static_remarks(results: ResultsFile) -> list[str]:
 def calc_contact(results: ResultsFile, name: str, window: Span) -> Contact:
     """A tyre's loads, its time off the ground and its time without load; the loads are those of all its wheels
     together."""
-    inside = samples_between(results, *window)
+    quantity = find_force_channel(results, name, FORCE) or ""
+    every = results.every(quantity)
+    inside = samples_between(results, *window, every)
     force, _ = read_force_channel(results, name, FORCE)
     contact, _ = read_force_channel(results, name, CONTACT)
-    static = calc_static(results, force, inside)
+    static = calc_static(results, quantity, force, inside)
     dynamic_rms = None if static is None else calc_rms(force[inside] - static)
+    row_step = every * sampling_step(results)
     off_ground, unloaded = (
-        float(np.count_nonzero(bare) * sampling_step(results)) for bare in (contact[inside] == 0, force[inside] <= 0.0)
+        float(np.count_nonzero(bare) * row_step) for bare in (contact[inside] == 0, force[inside] <= 0.0)
     )
     return Contact(static, float(force[inside].max()), dynamic_rms, off_ground, unloaded)

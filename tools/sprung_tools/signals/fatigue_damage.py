@@ -1,10 +1,11 @@
 """Fatigue damage of cycles of stress, by a line of stress ranges over numbers of cycles.
 
-    N = N_k (S_k / S)^m₁ for S ≥ S_k,   N = N_k (S_k / S)^m₂ below [1],   S_k = S_C (2·10⁶ / N_k)^(1/m₁)      (1)
+    N = N_k (S_k / S)^m₁ for S ≥ S_k,   N = N_k (S_k / S)^m₂ below [1],   S_k = S_C (2·10⁶ / N_k)^(1/m)       (1)
     S = range / (1 − max(mean, 0) / R_m)   [2]                                                                (2)
     D = Σ n / N   [3]                                                                                         (3)
 
-S_C is the range that 2 million cycles exhaust, the detail category of [1]; m₁ = 3, m₂ = 5 and N_k = 5 million are those
+m is the slope on whose part of the line 2·10⁶ cycles lie: m₁ for N_k ≥ 2·10⁶, else m₂. S_C is the range that
+2 million cycles exhaust, the detail category of [1]; m₁ = 3, m₂ = 5 and N_k = 5 million are those
 of [1] for normal stresses. A stress is a nominal one where S_C is: that of the beam's section, without the notch of the
 weld or hole that the category stands for. A compressive mean counts as none in (2).
 
@@ -41,10 +42,13 @@ class StrengthLine(NamedTuple):
 
 def calc_range(line: StrengthLine, cycles: float) -> float:
     """The range [Pa] that a number of cycles exhausts; 0 or inf where 64 bits do not hold it."""
-    slope = line.slopes[0 if cycles <= line.knee else 1]
+
+    def find_slope(number: float) -> float:
+        return line.slopes[0 if number <= line.knee else 1]
+
     with np.errstate(all="ignore"):
-        knee_range = line.category * np.power(CATEGORY_CYCLES / line.knee, np.divide(1.0, line.slopes[0]))
-        return float(knee_range * np.power(line.knee / cycles, np.divide(1.0, slope)))
+        knee_range = line.category * np.power(CATEGORY_CYCLES / line.knee, np.divide(1.0, find_slope(CATEGORY_CYCLES)))
+        return float(knee_range * np.power(line.knee / cycles, np.divide(1.0, find_slope(cycles))))
 
 
 def correct_ranges(line: StrengthLine, cycles: Cycles) -> Floats:

@@ -5,14 +5,15 @@ import math
 import os
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fnmatch import fnmatchcase
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5, read_numbers
-from sprung_tools.files.results_file import open_results
+from sprung_tools.files.results_file import ResultsFile, open_results
 from sprung_tools.programs.calls import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -29,14 +30,17 @@ from sprung_tools.runs.measures import (
     Measure,
     Measures,
     Objects,
+    find_points,
     is_converged,
     list_history_objects,
     list_linear_objects,
     list_objects,
 )
-from sprung_tools.runs.ride_measures import read_window
+from sprung_tools.runs.ride_assessment import list_band_remarks, list_remarks
+from sprung_tools.runs.ride_measures import list_row_remarks, list_static_remarks, read_window
 from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.runs.stored_histories import list_coarse
+from sprung_tools.signals.spans import Span
 from sprung_tools.study.kept_rows import Row, keep_row
 from sprung_tools.study.measure_names import check_names, check_response_points
 from sprung_tools.study.storage import choose_storage
@@ -135,7 +139,9 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
             coarse = ", ".join(list_coarse(results, with_resultants=with_resultants))
             warnings += (f"largest values may be larger than measured: {coarse}",) if coarse else ()
             window = read_window(results)
-            objects = list_objects(results, window, list_points(wanted)) | list_history_objects(results, window, wanted)
+            objects = list_wanted_objects(wanted, partial(list_objects, results, window))
+            objects |= list_history_objects(results, window, wanted)
+            warnings += tuple(list_remarks_of(results, wanted, window))
             measures = pick(objects, wanted)
             unknown = [name for name in wanted if name in measures and measures[name].value is None]
             warnings += tuple(f"{name}: {UNKNOWN}" for name in unknown)
@@ -144,7 +150,7 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
             response = Response("", file, read_numbers(file, "frequency")[0])
             if setting.has_one_vehicle:
                 check_response_points(response, list_points(wanted))
-            measures = pick(list_linear_objects(response, list_points(wanted)), wanted)
+            measures = pick(list_wanted_objects(wanted, partial(list_linear_objects, response)), wanted)
     said = dict(flatten("program", read_json(outcome)))
     measures |= {
         name: Measure(value, "") for name, value in said.items()
@@ -155,10 +161,33 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
 
 
 def list_points(wanted: Sequence[str]) -> list[str]:
-    """The points BODY.POINT that names of measures mention; none if one of them is a pattern, which then stands for
-    those that the tools choose."""
+    """The points BODY.POINT that names of measures mention, without patterns."""
     points = [name.split("/")[1] for name in wanted if name.startswith(("points/", "bands/"))]
-    return [] if any("*" in point for point in points) else list(dict.fromkeys(points))
+    return list(dict.fromkeys(point for point in points if "*" not in point))
+
+
+def list_wanted_objects(wanted: Sequence[str], list_all: Callable[[Sequence[str]], Objects]) -> Objects:
+    """The objects of the points that names of measures mention, and where one is a pattern also those of the points
+    that the tools choose. list_all: the objects for points; none stands for the tools' choice."""
+    named = list_points(wanted)
+    has_pattern = any("*" in name.split("/")[1] for name in wanted if name.startswith(("points/", "bands/")))
+    objects = list_all([]) if has_pattern or not named else {}
+    return objects | list_all(named) if named else objects
+
+
+def list_remarks_of(results: ResultsFile, wanted: Sequence[str], window: Span) -> list[str]:
+    """What is to be said of the measures that are wanted, beside the warnings of the run."""
+
+    def is_wanted(name: str) -> bool:
+        return any(fnmatchcase(name.split("/")[0], one.split("/")[0]) for one in wanted)
+
+    named = list_points(wanted)
+    points = find_points(results, named) if is_wanted("points") or is_wanted("bands") else []
+    with_mtvv = any(one.endswith("/mtvv") or one.endswith("*") for one in wanted)
+    remarks = list_remarks(results, points, window, with_mtvv=with_mtvv) if points else []
+    if not points and (is_wanted("suspensions") or is_wanted("tyres")):
+        remarks = [*list_static_remarks(results), *list_row_remarks(results)]
+    return remarks + (list_band_remarks(results, points, window) if is_wanted("bands") else [])
 
 
 def pick(objects: Objects, wanted: Sequence[str]) -> Measures:
