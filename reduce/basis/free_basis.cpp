@@ -15,6 +15,7 @@ namespace sprung::reduce {
 
 namespace {
 
+constexpr double kFarBelow = 0.1;       // of the tolerance: errors below need no sharp bound for a choice
 constexpr double kTie = 1e-6;           // shares nearer than this count as equal: the first load is taken
 constexpr Eigen::Index kFewLoads = 60;  // up to which a small body's residual vectors are chosen one by one
 constexpr double kSmallestStaticShare = 1e-3;  // below which vectors chosen together depend on each other
@@ -75,7 +76,7 @@ void add_until_certified(InterfaceResidual& residual, double highest, double cut
                          Eigen::Index most, const Progress& progress, std::vector<ResidualSource>& added) {
   while (residual.num_loads() > 0) {
     if (progress) progress(fmt::format("residual vector {}", residual.num_vectors() + 1));
-    const BandErrors errors = calc_band_errors(residual, highest, cutoff);
+    const BandErrors errors = calc_band_errors(residual, highest, cutoff, kFarBelow * tolerance);
     const Eigen::VectorXd shares = errors.error.cwiseQuotient(
         residual.static_flexibility().cwiseMax(std::numeric_limits<double>::min()));
     const Eigen::Index worst = find_worst(shares);

@@ -9,20 +9,19 @@ namespace sprung::reduce {
 
 namespace {
 
-constexpr double kSharpness = 1.02;    // bound over the largest value found
-constexpr double kNegligible = 1e-10;  // of the static flexibility
+constexpr double kSharpness = 1.02;  // bound over the largest value found
 constexpr int kFirstParts = 8;
 constexpr double kSmallestPart = 1e-5;  // of the band
 
 class BandSearch {
  public:
-  BandSearch(const InterfaceResidual& residual, double highest, double cutoff)
+  BandSearch(const InterfaceResidual& residual, double highest, double cutoff, double negligible)
       : residual_(residual), highest_(highest), cutoff_(cutoff) {
     const Eigen::Index b = residual.num_loads();
     errors_.error = Eigen::VectorXd::Zero(b);
     errors_.worst_omega_squared = Eigen::VectorXd::Zero(b);
     errors_.worst_part.resize(static_cast<std::size_t>(b));
-    found_ = kNegligible * residual.static_flexibility();
+    found_ = negligible * residual.static_flexibility();
   }
 
   BandErrors run() {
@@ -71,12 +70,13 @@ class BandSearch {
 
 }  // namespace
 
-BandErrors calc_band_errors(const InterfaceResidual& residual, double highest, double cutoff) {
+BandErrors calc_band_errors(const InterfaceResidual& residual, double highest, double cutoff,
+                            double negligible) {
   if (!(cutoff > highest)) {
     throw std::invalid_argument(fmt::format(
         "calc_band_errors: cutoff is {} rad²/s², expected more than the band's end {}", cutoff, highest));
   }
-  return BandSearch(residual, highest, cutoff).run();
+  return BandSearch(residual, highest, cutoff, negligible).run();
 }
 
 }  // namespace sprung::reduce

@@ -22,12 +22,14 @@ struct BandErrors {
 
 /// Bounds the error at every frequency of a band, not only at those that are looked at. With the amplitudes
 /// of the middle of a part, D is a convex quadratic in s all over it, and its largest value is at an end
-/// (reduce/certificate, eq. 6). Parts are halved until the bound is within 2 % of a value that it takes.
+/// (reduce/certificate, eq. 6). Parts are halved until the bound is within 2 % of a value that it takes, or
+/// of what is negligible.
 ///
 /// @param highest  ω² at the end of the band; cutoff  λ_c > highest, below which the residual has no mode
-///                 [rad²/s²]
+///                 [rad²/s²]   @param negligible  share of the static flexibility
 /// @throws std::invalid_argument if cutoff ≤ highest
 /// Checked by tests/reduce/certificate/certify_test.cpp
-BandErrors calc_band_errors(const InterfaceResidual& residual, double highest, double cutoff);
+BandErrors calc_band_errors(const InterfaceResidual& residual, double highest, double cutoff,
+                            double negligible = 1e-10);
 
 }  // namespace sprung::reduce

@@ -114,7 +114,7 @@ Certificate calc_certificate(InterfaceResidual& residual, const CertificateReque
   const bool bounded = cutoff > highest, misses = !std::isinf(cutoff);
   BandErrors band{.error = at_rest, .worst_omega_squared = at_rest, .worst_part = {}, .parts = {}};
   if (misses) at_rest = residual.calc_errors(0.0, residual.calc_amplitudes(0.0));
-  if (bounded && misses) band = calc_band_errors(residual, highest, cutoff);
+  if (bounded && misses) band = calc_band_errors(residual, highest, cutoff, certificate.rounding_floor);
   SoftModes soft{.loads = Eigen::MatrixXd(0, b + 4), .static_share = {}};
   if (bounded && misses && b <= kMostSoftLoads) {
     residual.add_loads(request.frame_loads);

@@ -1,5 +1,6 @@
 #include "reduce/certificate/interface_residual.h"
 
+#include <Eigen/Cholesky>
 #include <complex>
 #include <utility>
 
@@ -55,6 +56,17 @@ void normalise(Eigen::MatrixXd& vectors, Eigen::MatrixXd& forces) {
   forces *= scale.asDiagonal();
 }
 
+// Combines vectors of unit strain energy so that none shares strain energy with another: many that are added
+// together depend on each other nearly, and rounding would spoil their modes. They stay as they are where
+// they depend on each other to rounding. @param forces  their K u, combined with them
+void separate(Eigen::MatrixXd& vectors, Eigen::MatrixXd& forces) {
+  if (vectors.cols() < 2) return;
+  const Eigen::LLT<Eigen::MatrixXd> factor(symmetrise(multiply_transposed(vectors, forces)));
+  if (factor.info() != Eigen::Success) return;
+  factor.matrixU().solveInPlace<Eigen::OnTheRight>(vectors);
+  factor.matrixU().solveInPlace<Eigen::OnTheRight>(forces);
+}
+
 }  // namespace
 
 InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const StiffnessFactor& factor,
@@ -97,6 +109,7 @@ void InterfaceResidual::add(Eigen::MatrixXd added) {
     forces = multiply_transposed(problem_->stiffness, added);
   }
   normalise(added, forces);
+  separate(added, forces);
   border(UKU_, multiply_transposed(this->vectors(), forces), multiply_transposed(added, forces));
   forces.resize(0, 0);  // memory for what follows
   const Eigen::MatrixXd momenta = problem_->times_mass(added);

@@ -20,8 +20,16 @@ std::string quote(const std::string& text) {
 // dataset,matrix,row,column,value: 0-based; vectors are one column.
 std::string format_values(const Superelement& s) {
   std::string text = "dataset,matrix,row,column,value\n";
-  for (const SuperelementField& field : superelement_fields(find_version(s))) {
+  const FieldCounts counts = count_parts(s);
+  for (const SuperelementField& field : superelement_fields(s)) {
+    if (field.path.starts_with("/provenance")) continue;
     const FieldValue value = field.member.get(s);
+    const std::vector<std::int64_t> extents = calc_extents(field, counts);
+    const std::size_t columns = extents.size() > 1 ? static_cast<std::size_t>(extents.back()) : 1;
+    for (std::size_t k = 0; k < value.integers.size(); ++k)
+      text += fmt::format("{},0,{},{},{}\n", field.path, k / columns, k % columns, value.integers[k]);
+    for (std::size_t k = 0; k < value.texts.size(); ++k)
+      text += fmt::format("{},0,{},{},{}\n", field.path, k / columns, k % columns, quote(value.texts[k]));
     for (std::size_t matrix = 0; matrix < value.matrices().size(); ++matrix) {
       const support::RowMatrix& numbers = value.matrices()[matrix];
       for (Eigen::Index i = 0; i < numbers.rows(); ++i) {
