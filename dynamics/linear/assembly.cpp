@@ -24,6 +24,8 @@ constexpr int kMaxClosingIterations = 60;
 constexpr double kClosingTolerance = 1e-12;  // of the length scale
 constexpr double kLoaded = 1e-6;             // smaller ones of forces of the order 1 are rounding errors
 constexpr double kRegularisation = 1e-12;    // of the largest diagonal entry
+// Of what the mass of modes makes them move: a gap that bodies close as rigid ones shall not strain them.
+constexpr double kReluctanceToDeform = 1e-6;
 
 std::size_t joint_of_constraint(const Model& model, int constraint) {
   std::size_t joint = model.joints.size() - 1;
@@ -156,7 +158,9 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   SystemTerms terms(model);
   terms.update_positions(0.0, q);
   terms.update_mass();
-  const Eigen::VectorXd inverse_mass = terms.calc_metric().cwiseInverse();
+  Eigen::VectorXd inverse_mass = terms.calc_metric().cwiseInverse();
+  for (const Body& body : model.bodies)
+    inverse_mass.segment(body.first_coordinate + 3, body.num_modes()) *= kReluctanceToDeform;
   std::vector<Eigen::Vector2d> start;
   for (const MarkerState& marker : terms.markers()) start.push_back(marker.r);
 

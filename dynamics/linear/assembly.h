@@ -24,7 +24,8 @@ struct AssemblyReport {
 };
 
 /// Moves the bodies from the positions of the input file so that every joint closes, with the least movement
-/// in the mass metric: heavy bodies move least (Gauss–Newton).
+/// in the mass metric: heavy bodies move least, and bodies deform only where they cannot close the joints as
+/// rigid ones (Gauss–Newton).
 /// @param[in,out] q  num_coordinates
 /// @throws support::InputError at the joint, if the joints cannot be closed from the given positions, or if
 ///         some of them are redundant (the message names all that take part)

@@ -183,6 +183,32 @@ TEST_CASE("A flexible body with too few modes for its pins is told to take more 
              Contains("redundant joints"));
 }
 
+// Pins that a shift of 1 mm closes, and two pins further apart than the beam is long.
+TEST_CASE("Assembly deforms a body only where it cannot close the joints as a rigid one", "[analysis]") {
+  const test::BeamSuperelement beam = test::make_beam_superelement(
+      test::make_straight_beam("beam", {0.0, 0.5, 1.0, 1.5, 2.0}, 1e7, 2e3, 6.0), 12);
+  const auto strain_energy = [&](const std::vector<int>& nodes, double shift, double stretch) {
+    Model model;
+    const int body = test::add_body(
+        model,
+        dynamics::make_flexible_body("beam", beam.superelement, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+    for (const int node : nodes) {
+      Eigen::Vector2d at = beam.superelement.node_positions.col(node);
+      at.x() = shift + (1.0 + stretch) * at.x();
+      test::add_pin(model, "pin", test::add_node_marker(model, body, beam.superelement, node),
+                    test::add_marker(model, dynamics::kGround, at));
+    }
+    dynamics::number_model(model);
+    VectorXd q = VectorXd::Zero(model.num_coordinates);
+    dynamics::assemble_positions(model, q);
+    return 0.5 * q.tail(12).dot(beam.superelement.stiffness.topLeftCorner(12, 12) * q.tail(12));
+  };
+  CHECK(strain_energy({0}, 1e-3, 0.0) < 1e-6);
+  CHECK(strain_energy({0, 4}, 1e-3, 0.0) < 1e-6);
+  // It is at least that of a uniform stretch, 2 m · EA/2 · ε².
+  CHECK(strain_energy({0, 4}, 0.0, 1e-3) >= 10.0 * (1.0 - 1e-6));
+}
+
 TEST_CASE("Velocities are projected on the joints with the least change in the mass metric", "[analysis]") {
   const Model model = make_four_bar(1.0);
   VectorXd q = rough_four_bar();

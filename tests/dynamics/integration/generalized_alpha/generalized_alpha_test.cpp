@@ -109,6 +109,9 @@ struct FourBar {
     place(crank, 0.06, 0.08, 0.9);
     place(coupler, 0.35, 0.27, 0.4);
     place(rocker, 0.55, 0.18, 1.3);
+    // So that the coupler vibrates.
+    q.segment(model.bodies[static_cast<std::size_t>(coupler)].first_coordinate + 3, std::ssize(modes))
+        .setConstant(1e-3);
     dynamics::assemble_positions(model, q);
     VectorXd v = VectorXd::Zero(q.size());
     v[2] = 9.0;
