@@ -111,7 +111,7 @@ struct FourBar {
     place(rocker, 0.55, 0.18, 1.3);
     // So that the coupler vibrates.
     q.segment(model.bodies[static_cast<std::size_t>(coupler)].first_coordinate + 3, std::ssize(modes))
-        .setConstant(1e-3);
+        .setConstant(5e-3);
     dynamics::assemble_positions(model, q);
     VectorXd v = VectorXd::Zero(q.size());
     v[2] = 9.0;
