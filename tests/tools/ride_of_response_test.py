@@ -9,7 +9,12 @@ from synthetic_results import write_group, write_series
 from tool_test_case import ToolTestCase
 
 from sprung_tools.runs.labelled_responses import open_responses
-from sprung_tools.runs.ride_of_response import calc_linear_assessment, calc_linear_bands, list_points
+from sprung_tools.runs.ride_of_response import (
+    calc_linear_assessment,
+    calc_linear_bands,
+    list_frequency_remarks,
+    list_points,
+)
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import WD, WE, WK, weight_acceleration
 from sprung_tools.signals.spectra import calc_rms
@@ -35,6 +40,26 @@ def write_response(path, densities):
 
 
 class RideOfResponse(ToolTestCase):
+    def test_too_few_frequencies_are_remarked_on(self):
+        """A spectrum with a peak had a power 46 % too large from 12 frequencies, without a word."""
+        for number, is_said in ((12, True), (1000, False)):
+            path = write_response(self.folder / f"{number}.h5", {"x": 0.01, "y": 0.02, "angle": 0.01})
+            frequency = np.geomspace(0.1, 80.0, number)
+            with h5py.File(path, "a") as file:
+                del file["frequency"]
+                write_series(file, "frequency", frequency, "Hz")
+                for axis in ("x", "y", "angle"):
+                    name = f"outputs/points/body.seat/acceleration.{axis}"
+                    for one in ("response", "spectrum"):
+                        del file[f"{name}/{one}"]
+                    write_series(file, f"{name}/response", np.zeros((number, 2)), "m/s^2/m")
+                    peak = 0.01 / ((1.0 - (frequency / 3.0) ** 2) ** 2 + 0.01)
+                    write_series(file, f"{name}/spectrum", peak, "(m/s^2)^2/Hz")
+            (response,) = open_responses([path])
+            remarks = list_frequency_remarks(response, ["body.seat"])
+            self.assertEqual(["are too few" in one for one in remarks], [True] if is_said else [])
+            self.assertEqual("are too few" in self.run_tool("ride", path).stdout, is_said)
+
     def test_it_is_that_of_noise_in_time_with_the_same_spectra(self):
         densities = {"x": 0.02, "y": 0.08, "angle": 0.01}
         (response,) = open_responses([write_response(self.folder / "a.h5", densities)])

@@ -170,7 +170,7 @@ def make_json(
                        + list_moment_remarks(run.results, superelements),
                        "measures": pack_measures(calc_measures(objects))})  # fmt: skip
     for response in responses:
-        packed.append({"label": response.label, "file": response.file.filename, **describe_response(response),
+        packed.append({"label": response.label, "file": response.file.filename, **describe_response(response, points),
                        "measures": pack_measures(calc_measures(list_linear_objects(response, points)))})  # fmt: skip
     return json.dumps({"format": JSON_FORMAT, "version": JSON_VERSION, "runs": packed}, indent=1, ensure_ascii=False,
                       allow_nan=False)  # fmt: skip
@@ -231,7 +231,7 @@ def main() -> int:
         text.append(f"{response.label}: linear, on its random road, from {low:g} to {high:g} Hz")
     doubts = list_doubts(runs)
     for response in responses:
-        told = describe_response(response)
+        told = describe_response(response, arguments.points)
         doubts += [f"warning: {response.label}: {warning['text']}" for warning in told["warnings"]]
         doubts += [f"remark: {response.label}: {remark}" for remark in told["remarks"]]
     for run, some, window in zip(runs, points, windows):

@@ -16,11 +16,12 @@ DEEPEST = 5  # parts of an output's name, at most
 
 
 class Response(NamedTuple):
-    """An open response file with its name in the legend. frequency: [m] Hz."""
+    """An open response file with its name in the legend. frequency: [m] Hz, of which it takes every first, second …"""
 
     label: str
     file: StoredFile
     frequency: Floats
+    every: int = 1
 
     def values(self, output: str, *, is_spectrum: bool) -> tuple[Floats, str]:
         """Reads the magnitude of an output's response, or its spectral density [m]. Returns (values, unit). InputError
@@ -28,13 +29,13 @@ class Response(NamedTuple):
         group = self._find_group(output)
         if not is_spectrum:
             pairs, unit = read_numbers(self.file, f"{group}/response")
-            return np.hypot(pairs[:, 0], pairs[:, 1]), unit
+            return np.hypot(pairs[:, 0], pairs[:, 1])[:: self.every], unit
         if not self.file.has_dataset(f"{group}/spectrum"):
             raise InputError(f"{self.file.filename}: error: has no spectra: its run file has no [response.road]")
         density, unit = read_numbers(self.file, f"{group}/spectrum")
         if np.any(density < 0.0):
             raise InputError(f"{self.file.filename}: error: dataset '{group}/spectrum' holds values below 0")
-        return density, unit
+        return density[:: self.every], unit
 
     def rms(self, output: str) -> float:
         """The r.m.s. of an output, from a file with spectra."""

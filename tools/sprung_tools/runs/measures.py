@@ -39,7 +39,12 @@ from sprung_tools.runs.ride_measures import (
     read_window,
     sampling_step,
 )
-from sprung_tools.runs.ride_of_response import calc_linear_assessment, calc_linear_bands, list_points
+from sprung_tools.runs.ride_of_response import (
+    calc_linear_assessment,
+    calc_linear_bands,
+    list_frequency_remarks,
+    list_points,
+)
 from sprung_tools.runs.rounding import read_acceleration
 from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, RunWarning, list_warnings, read_warnings
 from sprung_tools.runs.section_stress import FROM_MODES, calc_section_stress, list_sources, list_stressed_bodies
@@ -296,15 +301,16 @@ def read_parameters(results: ResultsFile) -> dict[str, Any]:
     return {**found, "modes": {body: [int(one) for one in results.mode_numbers(body)] for body in flexible}}
 
 
-def describe_response(response: Response) -> dict[str, Any]:
-    """What stands beside the measures of a response in JSON."""
+def describe_response(response: Response, points: Sequence[str] = ()) -> dict[str, Any]:
+    """What stands beside the measures of a response in JSON. points: as list_linear_objects() takes them."""
     file = response.file
+    told = read_texts(file, "remarks") if file.has_dataset("remarks") else []
     return {
         "kind": "response", "title": read_text(file, "", "title", ""), "set": read_overrides(file),
         "parameters": {"speed": read_real(file, "", "speed")},
         "span": {"from": float(response.frequency[0]), "to": float(response.frequency[-1]), "unit": "Hz"},
         "converged": True, "warnings": pack_warnings(read_warnings(file) if file.has_group("warnings") else []),
-        "remarks": read_texts(file, "remarks") if file.has_dataset("remarks") else [],
+        "remarks": told + list_frequency_remarks(response, points or list_points(response)),
     }  # fmt: skip
 
 

@@ -8,6 +8,7 @@ by the trapezoidal rule over the frequencies of the file. So it is with the filt
 measures of single shocks (MTVV, vibration dose, crest factor) belong to a time history, not to a spectrum.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,8 @@ from sprung_tools.signals.ride_weighting import WD, WE, WK, calc_weighting
 from sprung_tools.signals.third_octaves import BAND_EDGES, BANDS, calc_band
 
 LEAST_IN_BAND = 8  # frequencies, of a smooth spectrum the error of the trapezoidal rule is then below 0.1 %
+
+MOST_CHANGE = 0.02  # of r.m.s. values, by leaving out every second frequency
 
 
 class LinearAssessment(NamedTuple):
@@ -64,6 +67,25 @@ def calc_linear_bands(frequency: Floats, density: Floats) -> list[float | None]:
         is_known = inside >= LEAST_IN_BAND and frequency[0] <= low and frequency[-1] >= high
         found.append(calc_filtered_rms(frequency, density, calc_band(frequency, centre)) if is_known else None)
     return found
+
+
+def list_frequency_remarks(response: Response, points: Sequence[str]) -> list[str]:
+    """That the frequencies are too few for the measures of points, if every second of them gives others."""
+    if response.frequency.size < 3:
+        return []
+    halves = response._replace(frequency=response.frequency[::2], every=2 * response.every)
+    worst, where = 0.0, ""
+    for point in points:
+        fine, coarse = calc_linear_assessment(response, point), calc_linear_assessment(halves, point)
+        for one, other in ((fine.vertical, coarse.vertical), (fine.rms, coarse.rms), (fine.fore_aft, coarse.fore_aft)):
+            change = abs(other - one) / one if one > 0.0 else 0.0
+            worst, where = (change, point) if change > worst else (worst, where)
+    if worst <= MOST_CHANGE:
+        return []
+    return [
+        f"{response.frequency.size} frequencies are too few: every second of them changes an r.m.s. value of {where} "
+        f"by {100.0 * worst:.2g} %; take more (response.number)"
+    ]
 
 
 def list_points(response: Response) -> list[str]:

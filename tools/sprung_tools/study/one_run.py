@@ -38,6 +38,8 @@ from sprung_tools.runs.measures import (
 )
 from sprung_tools.runs.ride_assessment import list_band_remarks, list_remarks
 from sprung_tools.runs.ride_measures import list_row_remarks, list_static_remarks, read_window
+from sprung_tools.runs.ride_of_response import list_frequency_remarks
+from sprung_tools.runs.ride_of_response import list_points as list_judged
 from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.runs.stored_histories import list_coarse
 from sprung_tools.signals.spans import Span
@@ -151,6 +153,8 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
             if setting.has_one_vehicle:
                 check_response_points(response, list_points(wanted))
             measures = pick(list_wanted_objects(wanted, partial(list_linear_objects, response)), wanted)
+            if any(name.startswith("points/") for name in wanted):
+                warnings += tuple(list_frequency_remarks(response, list_points(wanted) or list_judged(response)))
     said = dict(flatten("program", read_json(outcome)))
     measures |= {
         name: Measure(value, "") for name, value in said.items()
