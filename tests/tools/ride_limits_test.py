@@ -88,7 +88,6 @@ class ObstacleOutline(unittest.TestCase):
         self.assertAlmostEqual(np.max(heights), 0.2)
         np.testing.assert_allclose(np.hypot(places - math.sqrt(0.24), heights + 0.5), 0.7, rtol=1e-12)
 
-
     def test_the_roughness_is_that_between_the_eased_ends(self):
         """It was that of all points, and 4 % less than that of the terrain on which the power is measured."""
         for ease in (0.0, 10.0, 20.0):
