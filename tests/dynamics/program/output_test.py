@@ -58,7 +58,8 @@ class Results(DynamicsTestCase):
 
     def test_forces_in_equilibrium_are_those_of_the_command(self):
         """Also where the run starts on an obstacle, and moves already."""
-        self.assertEqual(self.run_to_results("--set", "road={shape=\"ramp\",start=0.0,length=5.0,height=1.0}").returncode, 0)
+        process = self.run_to_results("--set", 'road={shape="ramp",start=0.0,length=5.0,height=1.0}')
+        self.assertEqual(process.returncode, 0, process.stderr)
         process = self.run_program("--json", verb="equilibrium")
         expected = json.loads(process.stdout)["forces"]
         with h5py.File(self.results, "r") as file:
