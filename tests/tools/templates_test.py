@@ -76,7 +76,8 @@ class Templates(ToolTestCase):
             true = np.linalg.norm(right - with_few) / np.linalg.norm(with_few)
             self.assertAlmostEqual(found["of_rms_acceleration"] / true, 1.0, delta=0.2, msg=(modes, true))
 
-    def test_a_continued_run_has_the_measures_of_one_long_run_but_for_those_that_need_its_equilibrium(self):
+    def test_a_continued_run_has_the_measures_of_one_long_run(self):
+        """Those that need the equilibrium were not known."""
         self.run_template("half_car")
         (self.folder / "half_car.h5").rename(self.folder / "long.h5")
         self.run_template("half_car", "--set", "duration=0.25")
@@ -86,8 +87,8 @@ class Templates(ToolTestCase):
             window = (0.25, float(DURATION))
             for name in ("front_tyre", "rear_tyre"):
                 expected, found = calc_contact(long, name, window), calc_contact(continued, name, window)
-                self.assertEqual((found.static, found.dynamic_rms), (None, None))
-                self.assertAlmostEqual(found.greatest / expected.greatest, 1.0, delta=1e-3)  # the run's tolerance
+                for one, other in zip(found[:3], expected[:3]):  # to the run's tolerance
+                    self.assertAlmostEqual(one / other, 1.0, delta=1e-3)
                 self.assertEqual(found.off_ground, expected.off_ground)
 
     def test_each_has_one_rigid_body_mode_and_a_bracket_of_every_other_up_to_60_hz(self):
