@@ -51,6 +51,16 @@ class Functions(ToolTestCase):
             self.assertEqual(repr(results), "<Results of 'quarter car': 1501 samples from 0 s to 1.5 s; 0 warnings>")
         self.assertIn("closed", repr(results))
 
+    def test_measures_of_another_span_are_without_those_of_the_summary_and_have_remarks(self):
+        """The summary's own span stood beside the one asked for, and a span too short for the MTVV was not told."""
+        with sprung.run(CAR, overrides={"duration": 1.5}) as results:
+            self.assertEqual(results.remarks(), [])
+            found = results.measures(start=0.5, end=0.8)
+            self.assertEqual([name for name in found if name.startswith("summary/points")], [])
+            self.assertIn("summary/steps", found)
+            (remark,) = results.remarks(start=0.5, end=0.8)
+        self.assertIn("the MTVV is too low", remark)
+
     @unittest.skipUnless(importlib.util.find_spec("xarray"), "python3-xarray is not installed")
     def test_a_quantity_is_an_array_of_xarray_that_is_selected_by_time(self):
         with sprung.run(CAR, overrides={"duration": 0.5}) as results:

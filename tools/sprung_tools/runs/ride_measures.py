@@ -177,7 +177,8 @@ def calc_static(results: ResultsFile, quantity: str, values: Floats, inside: Fla
 
 def list_row_remarks(results: ResultsFile) -> list[str]:
     """That suspensions and tyres are judged by few rows, if they are."""
-    judged = [*find_suspensions(results).values(), *(f"forces/{name}/{FORCE}" for name in find_tyres(results))]
+    loads = (find_force_channel(results, name, FORCE) for name in find_tyres(results))
+    judged = [*find_suspensions(results).values(), *(quantity for quantity in loads if quantity is not None)]
     every = max((results.every(quantity) for quantity in judged), default=1)
     if every == 1:
         return []
@@ -207,11 +208,11 @@ def list_static_remarks(results: ResultsFile) -> list[str]:
 def calc_contact(results: ResultsFile, name: str, window: Span) -> Contact:
     """A tyre's loads, its time off the ground and its time without load; the loads are those of all its wheels
     together."""
-    quantity = find_force_channel(results, name, FORCE) or ""
-    every = results.every(quantity)
-    inside = samples_between(results, *window, every)
     force, _ = read_force_channel(results, name, FORCE)
     contact, _ = read_force_channel(results, name, CONTACT)
+    quantity = find_force_channel(results, name, FORCE) or ""  # it is there: its history was read
+    every = results.every(quantity)
+    inside = samples_between(results, *window, every)
     static = calc_static(results, quantity, force, inside)
     dynamic_rms = None if static is None else calc_rms(force[inside] - static)
     row_step = every * sampling_step(results)

@@ -188,9 +188,10 @@ def list_remarks_of(results: ResultsFile, wanted: Sequence[str], window: Span) -
     named = list_points(wanted)
     points = find_points(results, named) if is_wanted("points") or is_wanted("bands") else []
     with_mtvv = any(one.endswith("/mtvv") or one.endswith("*") for one in wanted)
-    remarks = list_remarks(results, points, window, with_mtvv=with_mtvv) if points else []
-    if not points and (is_wanted("suspensions") or is_wanted("tyres")):
-        remarks = [*list_static_remarks(results), *list_row_remarks(results)]
+    of_forces = [*list_static_remarks(results), *list_row_remarks(results)]
+    of_points = list_remarks(results, points, window, with_mtvv=with_mtvv) if points else []
+    remarks = [one for one in of_points if one not in of_forces]
+    remarks += of_forces if is_wanted("suspensions") or is_wanted("tyres") else []
     return remarks + (list_band_remarks(results, points, window) if is_wanted("bands") else [])
 
 
