@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
 #include "dynamics/element_input/point_reference.h"
 #include "dynamics/section_loads/body_remarks.h"
@@ -189,12 +188,13 @@ void warn_of_coarse_outputs(const Model& model, const RunStatistics& statistics,
 
 // A text with the name of the file alone in the place before it, `path:line:column: `, if it begins with one.
 std::string remove_folders(const std::string& text) {
-  static const std::regex place(".*?:[0-9]+(:[0-9]+)?: ");
-  std::smatch found;
-  // From the beginning alone: elsewhere the search would take time of the text's length squared.
-  if (!std::regex_search(text, found, place, std::regex_constants::match_continuous)) return text;
-  const std::size_t separator = text.rfind('/', static_cast<std::size_t>(found.length()));
-  return separator == std::string::npos ? text : text.substr(separator + 1);
+  for (auto end = text.find(": ", 1); end != std::string::npos; end = text.find(": ", end + 1)) {
+    const auto before = text.find_last_not_of("0123456789", end - 1);
+    if (before == std::string::npos || before + 1 == end || text[before] != ':') continue;
+    const auto separator = text.rfind('/', before);
+    return separator == std::string::npos ? text : text.substr(separator + 1);
+  }
+  return text;
 }
 
 }  // namespace

@@ -108,7 +108,8 @@ void CertifiedError::add(std::span<const Wrench> loads, const Eigen::VectorXd& q
   row.tail(acceleration.size()) = acceleration.reshaped().transpose();
 }
 
-// Adds the mean squares of a block of samples under a Hann window, without their means.
+// Adds the mean squares of a block of samples under a Hann window, without their means. Zeros follow on a
+// shorter block: transforms of lengths with large prime factors are slow.
 void CertifiedError::add_block(Eigen::Index length, double& missing, Eigen::VectorXd& total,
                                Eigen::VectorXd& above) const {
   using std::numbers::pi;
@@ -116,24 +117,24 @@ void CertifiedError::add_block(Eigen::Index length, double& missing, Eigen::Vect
       0.5 - 0.5 * (2.0 * pi / static_cast<double>(length) *
                    Eigen::ArrayXd::LinSpaced(length, 0.0, static_cast<double>(length - 1)))
                       .cos();
-  const double scale = 2.0 / (static_cast<double>(length) * window.square().sum());
+  const double scale = 2.0 / (static_cast<double>(kBlock) * window.square().sum());
   Eigen::FFT<double> fft;
-  Eigen::VectorXd windowed(length);
+  Eigen::VectorXd windowed = Eigen::VectorXd::Zero(kBlock);
   Eigen::VectorXcd lines;
   // The squares of the lines of a column.
   const auto transform = [&](Eigen::Index column) -> Eigen::ArrayXd {
     const auto values = samples_.col(column).head(length).array();
-    windowed = (values - values.mean()) * window;
+    windowed.head(length) = (values - values.mean()) * window;
     fft.fwd(lines, windowed);
-    return lines.head(length / 2 + 1).cwiseAbs2();
+    return lines.head(kBlock / 2 + 1).cwiseAbs2();
   };
   // At most interface freedoms nothing acts.
   const auto is_zero = [&](Eigen::Index column) {
     return (samples_.col(column).head(length).array() == 0.0).all();
   };
-  const Eigen::Index last = length / 2;  // highest line of the spectrum
+  constexpr Eigen::Index last = kBlock / 2;  // highest line of the spectrum
   const Eigen::ArrayXd frequency = Eigen::ArrayXd::LinSpaced(last + 1, 0.0, static_cast<double>(last)) /
-                                   (static_cast<double>(length) * step_);
+                                   (static_cast<double>(kBlock) * step_);
   const Eigen::ArrayXd is_inside = (frequency <= highest_hz_).cast<double>();
   Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(last + 1);
   for (Eigen::Index j = 0; j < weights_.size(); ++j) {
