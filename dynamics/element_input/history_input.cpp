@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "tools/support/files/read_text_file.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -178,7 +180,7 @@ const HistoryFiles::File& HistoryFiles::open(const support::TomlValue& file) {
   const std::filesystem::path path = folder_ / file.string();
   std::unique_ptr<File>& known = files_[path.string()];
   if (known) return *known;
-  if (!std::filesystem::is_regular_file(path)) {
+  if (!support::is_regular_file(path)) {
     throw file.error(fmt::format("names no file, {}", path.string()));
   }
   known = std::make_unique<File>(Rpc3File::is_one(path) ? File(Rpc3File::read(path))

@@ -19,7 +19,7 @@ struct OscillatorResponse {
   double forced_rate(int k) const { return k > 0 ? forced[static_cast<std::size_t>(k - 1)] : s; }
 };
 
-/// @param stiffness  ω² ≥ 0 [1/s²]
+/// @param stiffness  ω² [1/s²]; negative where the motion grows
 /// @param decay  d [1/s]
 /// @param time  at least 0 [s]
 /// @param max_power  highest k of the forced responses, at most kMaxPower; higher ones are set to zero

@@ -184,7 +184,7 @@ RoadPoints read_crg(const RoadDescription& road) {
 }  // namespace
 
 RoadPoints read_road_points(const RoadDescription& road) {
-  if (!std::filesystem::is_regular_file(road.file)) {
+  if (!support::is_regular_file(road.file)) {
     throw support::InputError(road.file_location,
                               fmt::format("there is no road file {}", road.file.string()));
   }

@@ -104,7 +104,7 @@ std::optional<SteadyMotion> find_steady_motion(const Model& model, const Eigen::
   rigid.col(2) = SteadyMotion{.omega = 1.0}.calc_velocity(model, q);
   const Eigen::MatrixXd allowed = terms.jacobian().dense() * rigid;
   const Eigen::Vector3d found = support::solve_least_squares(allowed, -phi_t);
-  if ((allowed * found + phi_t).norm() > kAllowed * phi_t.norm()) return std::nullopt;
+  if (!((allowed * found + phi_t).norm() <= kAllowed * phi_t.norm())) return std::nullopt;
   return SteadyMotion{.velocity = found.head<2>(), .omega = found[2]};
 }
 

@@ -50,7 +50,7 @@ std::string pack_run_state(const Checkpoint& checkpoint, const ResultsExtent& ex
 }
 
 PartialResults::PartialResults(const fs::path& results, const ResultsHeader& header)
-    : file_(open_partial(results)), start_(header.start) {
+    : file_(open_partial(results)), start_(header.start), model_(header.model) {
   check_same_run(header);
 }
 
@@ -102,7 +102,7 @@ std::optional<PartialResults::RunState> PartialResults::read_state(RunStatistics
     transfer_checkpoint(bytes, state.checkpoint);
     transfer_extent(bytes, state.extent);
     statistics.restore(bytes);
-    if (!bytes.at_end()) throw support::DamagedBytes();
+    if (!bytes.at_end() || !state.checkpoint.fits(model_)) throw support::DamagedBytes();
   } catch (const support::DamagedBytes&) {
     throw support::InputError({.path = file_.path().string()},
                               fmt::format("dataset '{}' is damaged; run without --resume", dataset));

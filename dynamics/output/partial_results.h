@@ -19,7 +19,7 @@ std::filesystem::path partial_name(const std::filesystem::path& results);
 /// The results that an interrupted or killed run has left, from which the same run can continue.
 class PartialResults {
  public:
-  /// @param results  name of the complete file   @param header  its start has to outlive this
+  /// @param results  name of the complete file   @param header  its start and model have to outlive this
   /// @throws support::InputError if there is no partial file, if it is damaged, or of another run: then the
   ///         message says what differs
   PartialResults(const std::filesystem::path& results, const ResultsHeader& header);
@@ -42,6 +42,7 @@ class PartialResults {
 
   support::Hdf5Reader file_;
   const State& start_;  // of the run
+  const Model& model_;
 };
 
 /// The content of the checkpoint's dataset.

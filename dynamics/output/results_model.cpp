@@ -174,8 +174,9 @@ RoadSamples sample_road(const ResultsHeader& header) {
   for (const Body& body : header.model.bodies) {
     rearmost = std::min(rearmost, header.road.distance(header.start.q[body.first_coordinate]));
   }
-  const double from = std::floor(rearmost) - 2.0;
-  const double to = std::ceil(1.1 * std::abs(header.run.speed) * header.run.duration) + 5.0;
+  const double travel = 1.1 * header.run.speed * header.run.duration;  // a tenth more than at constant speed
+  const double from = std::floor(rearmost + std::min(travel, 0.0)) - 2.0;
+  const double to = std::ceil(std::max(travel, 0.0)) + 5.0;
   const double spacing = std::max(kSpacing, (to - from) / kMaxSamples);
   RoadSamples samples;
   std::vector<double>& distance = samples.distance;

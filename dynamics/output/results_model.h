@@ -6,7 +6,7 @@
 
 namespace sprung::dynamics {
 
-/// Heights of the road over the whole range of the wheels, and at the ends of its segments [m].
+/// Heights of the road where the wheels may come, and at the ends of its segments [m].
 struct RoadSamples {
   std::vector<double> distance, height;
 };

@@ -203,4 +203,9 @@ std::filesystem::path ResultsWriter::abandon() {
   return file_.partial();
 }
 
+void ResultsWriter::discard() {
+  has_checkpoint_ = false;
+  file_.discard();
+}
+
 }  // namespace sprung::dynamics

@@ -77,7 +77,7 @@ bool StoragePlan::thin_out(const OutputSettings& settings, StoredGroup group) {
 
 // Stores positions and velocities of points and bodies about every kCoarseStep, unless the run file says how
 // often.
-// @return whether that changes anything
+// @return whether outputs are closer than that
 bool StoragePlan::thin_out_motion(const OutputSettings& settings) {
   const long every = rows_between_coarse();
   if (every <= 1) return false;

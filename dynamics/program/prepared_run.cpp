@@ -18,6 +18,7 @@
 #include "dynamics/program/unlikely_balance.h"
 #include "dynamics/road/flat_road.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/files/read_text_file.h"
 #include "tools/support/terminal/print.h"
 #include "tools/support/terminal/progress_bar.h"
 
@@ -91,7 +92,7 @@ void read_files(const RunRequest& request, Preparation preparation, PreparedRun&
   support::TomlDocument run_document = support::TomlDocument::read(request.run_file);
   apply_overrides(run_document, request.overrides, false);
   prepared.run = read_run(run_document);
-  if (!std::filesystem::is_regular_file(prepared.run.vehicle_path)) {
+  if (!support::is_regular_file(prepared.run.vehicle_path)) {
     throw support::InputError(prepared.run.vehicle_location,
                               fmt::format("there is no vehicle file {}", prepared.run.vehicle_path.string()));
   }

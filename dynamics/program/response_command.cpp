@@ -192,8 +192,6 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   result.warnings = list_warnings(prepared, vehicle);
   for (RunWarning& warning : list_lifting_wheels(prepared, vehicle, result))
     result.warnings.push_back(std::move(warning));
-  for (const RunWarning& warning : result.warnings)
-    support::print(request.streams.err, "warning: {}\n", warning.text);
   if (const std::string means = describe_mean_slopes(vehicle); !means.empty())
     result.remarks.push_back(means);
   if (!states.empty()) result.remarks.push_back(states);

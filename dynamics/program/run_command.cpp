@@ -238,6 +238,7 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
     throw support::NumericalError(
         fmt::format("{}; partial results: {}", error.what(), writer->abandon().string()));
   } catch (const support::DamagedBytes& error) {
+    writer->discard();
     throw support::InputError({.path = writer->partial().string()},
                               fmt::format("cannot be resumed: {}; run without --resume", error.what()));
   }

@@ -25,6 +25,15 @@ struct Checkpoint {
   int switches_in_place = 0;                                      ///< up to the last one
   std::optional<KnownMotion> small_motion;                        ///< of the stepper, if its method uses it
   std::string monitor;  ///< bytes of the ModeMonitor, "" without one
+
+  /// Whether its states have the sizes of a model's.
+  bool fits(const Model& model) const {
+    const auto has_sizes = [&model](const State& one) {
+      return one.q.size() == model.num_coordinates && one.v.size() == model.num_coordinates &&
+             one.branches.size() == static_cast<std::size_t>(model.num_branches);
+    };
+    return has_sizes(start) && has_sizes(state);
+  }
 };
 
 template <class Bytes, class Matrix>

@@ -304,11 +304,7 @@ TransientStatistics run_transient(const Model& model, const State& start, const 
 
 TransientStatistics resume_transient(const Model& model, const Checkpoint& checkpoint,
                                      const TransientOptions& options) {
-  for (const State* state : {&checkpoint.start, &checkpoint.state}) {
-    const bool fits = state->q.size() == model.num_coordinates && state->v.size() == model.num_coordinates &&
-                      state->branches.size() == static_cast<std::size_t>(model.num_branches);
-    if (!fits) throw support::DamagedBytes();
-  }
+  if (!checkpoint.fits(model)) throw support::DamagedBytes();
   if (checkpoint.monitor.empty() == options.adaptivity.has_value()) throw support::DamagedBytes();
   return TransientRun(model, options).resume(checkpoint);
 }

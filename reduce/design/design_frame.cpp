@@ -299,7 +299,7 @@ DesignFrame read_design_frame(const TomlTable& root, const std::filesystem::path
   const auto mesh = root.find("mesh");
   if (!mesh) return read_lines(root, points, sections);
   if (const auto lines = root.find("lines")) throw lines->error("stands beside 'mesh'; give either");
-  if (!std::filesystem::is_regular_file(folder / mesh->string()))
+  if (!support::is_regular_file(folder / mesh->string()))
     throw mesh->error(
         fmt::format("must name a file, found none at '{}'", (folder / mesh->string()).string()));
   return read_mesh(root, *mesh, points, folder, sections);

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <stdexcept>
 
 #include "tools/support/dense/eigenproblems.h"
+#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
 
@@ -15,11 +17,16 @@ using Complex = std::complex<double>;
 constexpr double kRounding = 1e-13;  // eigenvalues below this share of the largest are rounding
 constexpr double kNegative = 1e-9;   // and below minus this, of no mass
 
+template <typename Pairs>
+Pairs expect(std::optional<Pairs> pairs) {
+  if (!pairs) throw support::NumericalError("mass points: a matrix of inertia has no eigenvalues");
+  return *std::move(pairs);
+}
 support::SymmetricEigenpairs solve(const Eigen::MatrixXd& A) {
-  return support::solve_symmetric(A).value();
+  return expect(support::solve_symmetric(A));
 }
 support::HermitianEigenpairs solve(const Eigen::MatrixXcd& A) {
-  return support::solve_hermitian(A).value();
+  return expect(support::solve_hermitian(A));
 }
 
 // The eigenvalues above rounding, and their vectors, of a semidefinite matrix whose rows and columns are

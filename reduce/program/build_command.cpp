@@ -50,14 +50,14 @@ std::map<fs::path, fs::path> assign_outputs(const BuildOptions& options) {
 }
 
 void make_folder(const fs::path& folder) {
-  if (folder.extension() == ".h5" && !fs::is_directory(folder)) {
+  std::error_code error, ignored;
+  if (folder.extension() == ".h5" && !fs::is_directory(folder, ignored)) {
     throw InputError({.path = folder.string()},
                      "--output-dir got the name of a file, expected a folder: superelements have the names "
                      "of their designs");
   }
-  std::error_code error;
   fs::create_directories(folder, error);
-  if (fs::is_directory(folder)) return;
+  if (fs::is_directory(folder, ignored)) return;
   throw InputError({.path = folder.string()},
                    fmt::format("cannot be used as a folder for the superelements: {}",
                                error ? error.message() : "it is no folder"));

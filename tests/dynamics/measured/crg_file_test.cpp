@@ -122,6 +122,8 @@ TEST_CASE("OpenCRG files that cannot be read are refused at their place") {
   CHECK_THAT(error_of(replace(kParameters, "= 0.5 ", "= -0.5 ")), Contains("must be > 0 m, got -0.5"));
   CHECK_THAT(error_of(replace(kParameters, "REFERENCE_LINE_INCREMENT", "REFERENCE_LINE_STEP")),
              Contains("has no 'REFERENCE_LINE_INCREMENT'"));
+  CHECK(error_of(kParameters, "#:LRFI\nD:reference line phi,rad\n") ==
+        "road.crg: error: has no channel 'D:long section'");
   CHECK_THAT(error_of(replace(kParameters, "LONG_SECTION_V_LEFT", "LONG_SECTION_LEFT")),
              Contains("sections must be numbered 1, 2"));
   CHECK_THAT(error_of(kParameters, replace(kChannels, "section 2", "section 3")),

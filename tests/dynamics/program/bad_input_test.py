@@ -56,6 +56,7 @@ SPOILT_TEXT = [
         ("vehicle.toml:", "redundant", "twice", "front_long_chassis"),
     ),
     ("no such vehicle", "bump.toml", '"vehicle.toml"', '"vehcle.toml"', ("bump.toml", "vehcle.toml")),
+    ("a name that is too long", "bump.toml", '"vehicle.toml"', f'"{"v" * 300}"', ("bump.toml:4:", "no vehicle file")),
 ]
 
 

@@ -266,6 +266,25 @@ class ResumeTest(ProgramTestCase):
             self.partial.write_bytes(whole[:size])
             self.assert_refused(self.resume(), "cut.partial.h5: error: ")
 
+    def test_a_state_of_another_size_is_refused_and_stays(self):
+        # The last state loses a position. Behind the number of the layout follow the start and this state, each of the
+        # time, positions and velocities, and branches, with their numbers.
+        with h5py.File(self.partial, "r+") as file:
+            state = file["checkpoint"][()].tobytes()
+            count = int.from_bytes(state[16:24], "little")
+            num_branches = int.from_bytes(state[32 + 16 * count : 40 + 16 * count], "little")
+            place = 8 + (8 + 2 * (8 + 8 * count) + 8 + 4 * num_branches) + 8
+            self.assertEqual(int.from_bytes(state[place : place + 8], "little"), count)
+            state = state[:place] + (count - 1).to_bytes(8, "little") + state[place + 16 :]
+            del file["checkpoint"]
+            file["checkpoint"] = np.frombuffer(state, np.uint8)
+        damaged = self.partial.read_bytes()
+        process = self.resume()
+        self.assert_refused(process, "cut.partial.h5: error: dataset '/checkpoint' is damaged; run without --resume")
+        self.assertNotIn("run again with --resume", process.stderr)
+        self.assertEqual(self.partial.read_bytes(), damaged)
+        self.assertFalse((self.folder / "cut.h5.tmp").exists())
+
     def test_a_run_that_was_interrupted_before_its_first_checkpoint_is_resumed_from_its_start(self):
         with h5py.File(self.partial, "r+") as file:
             del file["checkpoint"]

@@ -16,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
 
 from reduce_case import ReduceTestCase, run_tests  # noqa: E402  after the path
 
+IRON = "[materials.iron]\nyoungs_modulus = 1.0e11\ndensity = 7200.0\n"
 E, RHO, WIDTH, LENGTH = 2.0e11, 7800.0, 0.02, 1.3
 
 
@@ -99,6 +100,10 @@ class TaperedTest(ReduceTestCase):
             (('["root", "tip"]', '["root", "top"]'), "names the section 'top', which is not defined"),
             (('from = "wall"\nto = "end"', 'through = ["wall", "end"]'), "a tapered line has 'from' and 'to'"),
             ((f"height = {0.02}", f"height = {0.02}\ncount = 2"), "different keys"),
+            (('[sections.tip]\nmaterial = "steel"', f'{IRON}[sections.tip]\nmaterial = "iron"'),
+             "names two sections with different 'material'"),
+            (("height = 0.06\n[sections.tip]", "height = 0.06\ncount = 3\n[sections.tip]\ncount = 2"),
+             "names two sections with different 'count'"),
             (("elements = 4", "elements = [4]"), "'lines.0.elements' must be an integer"),
         ):
             (self.folder / "cantilever.toml").write_text(make_design(0.06, 0.02, 4).replace(*change))

@@ -78,6 +78,8 @@ class MatrixErrorsTest(ReduceTestCase):
         text = (self.folder / "k.mtx").read_text()
         (self.folder / "k.mtx").write_text(text[: text.rindex("\n9 9") + 1])
         self.assert_error("k.mtx:23: error: ends after 20 of 21 entries")
+        (self.folder / "k.mtx").write_text("")
+        self.assert_error("error: is empty, expected a Matrix Market file")
         (self.folder / "k.mtx").write_text(text + "9 9 1.0\n")
         self.assert_error("k.mtx:25: error: stands after the last of 21 entries")
         (self.folder / "k.mtx").unlink()
@@ -186,11 +188,16 @@ class MatrixErrorsTest(ReduceTestCase):
             ("               1               1\n", "               1               0\n",
              "k.mtx:4:40: error: 1 is a grid point here, and a scalar point in a line before"),
             ("1.000000000D+05", "1.0000000X0D+05", "error: '1.0000000X0D+05' is no number"),
+            ("1.000000000D+05", "", "error: the value of the entry is missing"),
+            ("1.000000000D+05", "1.000000000D+05 2.0", "error: a real matrix has an imaginary part"),
         ])
         files.write_dmig(self.folder / "k.mtx", {"KAAX": self.stiffness, "MAAX": self.mass}, FREEDOMS)
         self.assert_error("error: is a second matrix, 'MAAX' after 'KAAX': say which one is meant by 'stiffness_name'")
         self.change("body.toml", "[reference]", 'stiffness_name = "KGG"\n[reference]')
         self.assert_error("error: has no matrix 'KGG'")
+        self.change("body.toml", '"KGG"', '"KAAX"')
+        self.change("k.mtx", "DMIG    KAAX           0", "$MIG    KAAX           0")  # a comment
+        self.assert_error("k.mtx:3: error: an entry of 'KAAX' stands before its header")
 
     def test_keys_of_the_design(self):
         self.assert_errors("body.toml", [

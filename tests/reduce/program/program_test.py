@@ -71,6 +71,11 @@ class Program(ReduceTestCase):
         self.assertIn("frame.h5: error: --output-dir got the name of a file, expected a folder", result.stderr)
         self.assertFalse((self.folder / "frame.h5").exists())
 
+    def test_a_folder_for_superelements_whose_name_is_too_long_is_refused(self):
+        result = self.run_program("build", self.folder / "chassis.toml", "-o", self.folder / ("f" * 300))
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(": error: cannot be used as a folder for the superelements: File name too long", result.stderr)
+
     def test_same_input_gives_same_bytes_whatever_the_folder(self):
         self.build("chassis.toml", "ladder_frame.toml")
         other = self.folder / "elsewhere" / "deeper"

@@ -14,8 +14,9 @@ Eigen::MatrixXcd solve_lu(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);
 struct LuFactors {
   Eigen::MatrixXd lu;                 ///< n×n, L below the diagonal (its own is 1), U
   std::vector<int> pivots = {};       ///< row i was exchanged with row pivots[i], from 1
-  double reciprocal_condition = 0.0;  ///< estimated in the 1-norm; 0 where A is singular
+  double reciprocal_condition = 0.0;  ///< estimated in the 1-norm; 0 where A is singular or not finite
 
+  /// @param b  n×k   @return n×k; of use only where the reciprocal condition is not 0
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 };
 LuFactors factorise_lu(const Eigen::MatrixXd& A);

@@ -1,7 +1,6 @@
 #include "tools/support/dense/eigenproblems.h"
 
 #include <complex>
-#include <limits>
 
 #include "tools/support/dense/lapack.h"
 
@@ -28,7 +27,7 @@ Eigen::VectorXd calc_symmetric_eigenvalues(const Eigen::MatrixXd& A) {
   Eigen::VectorXd values(A.rows());
   if (LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'N', 'L', lapack::rows(A), overwritten.data(), lapack::stride(A),
                      values.data()) != 0)
-    values.setConstant(std::numeric_limits<double>::quiet_NaN());
+    values.setConstant(lapack::kNone);
   return values;
 }
 

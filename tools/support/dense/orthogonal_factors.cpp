@@ -12,14 +12,14 @@ namespace sprung::support {
 namespace {
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Q of the first reflectors of QR factors.
 // @param columns  m×k with the factors in its first columns; becomes the first k columns of Q
 void make_orthogonal_columns(Eigen::MatrixXd& columns, const Eigen::VectorXd& reflectors) {
   const auto count = std::min(lapack::cols(columns), static_cast<int>(reflectors.size()));
-  LAPACKE_dorgqr(LAPACK_COL_MAJOR, lapack::rows(columns), lapack::cols(columns), count, columns.data(),
-                 lapack::stride(columns), reflectors.data());
+  if (LAPACKE_dorgqr(LAPACK_COL_MAJOR, lapack::rows(columns), lapack::cols(columns), count, columns.data(),
+                     lapack::stride(columns), reflectors.data()) != 0)
+    columns.setConstant(lapack::kNone);
 }
 
 // @param vectors  LAPACK's choice: all ('A'), as many as singular values ('S') or none ('N')
@@ -37,8 +37,8 @@ SingularValueFactors factorise(Eigen::MatrixXd A, char vectors) {
   if (LAPACKE_dgesdd(LAPACK_COL_MAJOR, vectors, m, n, A.data(), lapack::stride(A), factors.values.data(),
                      factors.U.data(), lapack::stride(factors.U), factors.V_transposed.data(),
                      lapack::stride(factors.V_transposed)) != 0) {
-    for (Eigen::MatrixXd* matrix : {&factors.U, &factors.V_transposed}) matrix->setConstant(kNone);
-    factors.values.setConstant(kNone);
+    for (Eigen::MatrixXd* matrix : {&factors.U, &factors.V_transposed}) matrix->setConstant(lapack::kNone);
+    factors.values.setConstant(lapack::kNone);
   }
   return factors;
 }
@@ -49,9 +49,12 @@ ColumnSpace find_column_space(const Eigen::MatrixXd& A, Eigen::Index num_columns
   Eigen::MatrixXd factors = A;
   std::vector<int> columns(static_cast<std::size_t>(A.cols()), 0);  // 0: may be moved
   Eigen::VectorXd reflectors(std::min(A.rows(), A.cols()));
-  LAPACKE_dgeqp3(LAPACK_COL_MAJOR, lapack::rows(A), lapack::cols(A), factors.data(), lapack::stride(A),
-                 columns.data(), reflectors.data());
   ColumnSpace space;
+  if (LAPACKE_dgeqp3(LAPACK_COL_MAJOR, lapack::rows(A), lapack::cols(A), factors.data(), lapack::stride(A),
+                     columns.data(), reflectors.data()) != 0) {
+    space.basis = Eigen::MatrixXd::Constant(A.rows(), num_columns, lapack::kNone);
+    return space;
+  }
   const Eigen::ArrayXd pivots = factors.diagonal().array().abs();
   if (pivots.size() > 0)
     space.rank = (pivots > kRounding * static_cast<double>(pivots.size()) * pivots.maxCoeff()).count();
@@ -73,8 +76,9 @@ Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& A, const Eigen::Matri
   std::vector<int> columns(static_cast<std::size_t>(A.cols()), 0);
   const double smallest = kRounding * static_cast<double>(std::max(A.rows(), A.cols()));
   int rank = 0;
-  LAPACKE_dgelsy(LAPACK_COL_MAJOR, lapack::rows(A), lapack::cols(A), lapack::cols(b), overwritten.data(),
-                 lapack::stride(A), x.data(), lapack::stride(x), columns.data(), smallest, &rank);
+  if (LAPACKE_dgelsy(LAPACK_COL_MAJOR, lapack::rows(A), lapack::cols(A), lapack::cols(b), overwritten.data(),
+                     lapack::stride(A), x.data(), lapack::stride(x), columns.data(), smallest, &rank) != 0)
+    x.setConstant(lapack::kNone);
   return x.topRows(A.cols());
 }
 

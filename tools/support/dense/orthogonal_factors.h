@@ -9,7 +9,7 @@ struct ColumnSpace {
   Eigen::MatrixXd basis;
   Eigen::Index rank = 0;
 };
-/// By QR factors with column pivoting.
+/// By QR factors with column pivoting. The basis is NaN and the rank 0 where A is not finite.
 /// @param num_columns  of the basis, at most A's rows
 ColumnSpace find_column_space(const Eigen::MatrixXd& A, Eigen::Index num_columns);
 
@@ -17,6 +17,7 @@ ColumnSpace find_column_space(const Eigen::MatrixXd& A, Eigen::Index num_columns
 Eigen::MatrixXd make_rotation_onto(const Eigen::VectorXd& direction);
 
 /// Among the x that make |A x − b| least, the shortest. @param A  m×n, of any rank   @param b  m×k
+/// @return n×k; NaN where A or b is not finite
 Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 
 /// Singular values, descending, with singular vectors as columns. They are NaN where the iteration does not

@@ -12,6 +12,11 @@
 
 namespace sprung::support {
 
+bool is_regular_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
 std::string read_text_file(const std::filesystem::path& path) {
   const auto fail = [&path](int reason) {
     return InputError({.path = path.empty() ? "''" : path.string()},

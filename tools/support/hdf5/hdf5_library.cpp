@@ -46,7 +46,7 @@ std::string failure_reason() {
   };
   constexpr Known kKnown[] = {
       {"Fletcher32", "its checksum does not fit, the data is damaged"},
-      // HDF5 1.14 says no more about a filter; the checksum is the only filter of this project's files.
+      // HDF5 1.14 says no more about a filter: it is the checksum, or the decompression before it.
       {"filter returned failure during read", "its checksum does not fit, the data is damaged"},
       {"metadata checksum", "the file is damaged (a checksum of its structure does not fit)"},
       {"truncated file", "the file is truncated"},
