@@ -5,7 +5,7 @@ import unittest
 import h5py
 import numpy as np
 from mode_runs import write_adaptive_run
-from synthetic_results import write_results, write_series
+from synthetic_results import write_results, write_series, write_texts
 from tool_test_case import ToolTestCase
 
 from sprung_tools.files.results_file import open_results
@@ -118,6 +118,13 @@ class RunWarnings(ToolTestCase):
         (found,) = self.list(self.folder / "a.h5")
         self.assertEqual((found.section, found.of), ("equilibrium", ("front_tyre",)))
         self.assertIn("front_tyre left the ground", found.text)
+        with h5py.File(self.folder / "a.h5", "a") as file:  # what happened is stored where forces are not
+            del file["forces/front_tyre/contact"]
+            write_series(file, "events/time", np.array([0.1, 0.2]), "s")
+            for part, texts in {"kind": ["force"] * 2, "object": ["spring", "front_tyre"],
+                                "text": ["bends", "leaves the ground"]}.items():  # fmt: skip
+                write_texts(file, f"events/{part}", texts)
+        self.assertEqual(self.list(self.folder / "a.h5"), [found])
 
 
 if __name__ == "__main__":

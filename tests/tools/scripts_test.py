@@ -4,7 +4,7 @@ import os
 import sys
 import unittest
 
-from synthetic_results import write_superelement
+from synthetic_results import write_results, write_superelement
 from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 
 BASH = ("setup", "build", "test", "run-truck", "fuzz")
@@ -47,6 +47,34 @@ class Scripts(ToolTestCase):
                 self.assertEqual(process.returncode, 2)
                 self.assertIn("error: ", process.stderr)
         self.assertEqual(os.listdir(self.folder), [])
+
+    def test_no_file_that_is_read_is_replaced(self):
+        write_results(self.folder / "run.png", num_modes=2)
+        write_superelement(self.folder / "arm.pvd", "arm", [6.112])
+        (self.folder / "link").symlink_to("run.png")
+        for name in ("sums.json", "run.toml"):
+            (self.folder / name).touch()
+        show = ("--show", "bodies/chassis/position.y")
+        for name, output, *arguments in (
+            ("plot_results", "run.png", "a=run.png", *show),
+            ("plot_results", "link", "run.png", *show),
+            ("plot_response", "run.png", "run.png", *show),
+            ("plot_modes", "run.png", "run.png"),
+            ("plot_modes", "run.png", "--over-time", "run.png"),
+            ("plot_sensitivity", "sums.json", "sums.json"),
+            ("export_paraview", "arm.pvd", "arm.pvd"),
+            ("export_csv", "run.png", "run.png", *show),
+            ("fatigue", "run.png", "run.png", "--category", "71"),
+            ("ride_limits", "run.toml", "run.toml", "--point", "a.b"),
+            ("report", "run.png", "run.png"),
+        ):
+            with self.subTest(name):
+                before = (self.folder / output).read_bytes()
+                process = self.run_tool(name, *arguments, "-o", output)
+                self.assert_refuses(process, f"{output}: error: is one of the input files, which the output would")
+                self.assertEqual((self.folder / output).read_bytes(), before)
+        process = self.run_tool("fatigue", "run.png", "--category", "71", "-o", "f.png", "--histories", "f.png")
+        self.assert_refuses(process, "f.png: error: is the name of the picture, too")
 
     def test_a_closed_output_is_refused_in_one_line(self):
         for name in PYTHON:

@@ -154,6 +154,12 @@ class Errors(ToolTestCase):
             with self.assertRaisesRegex(sprung.InputError, "no quantity 'points/none/velocity.x'"):
                 results["points/none/velocity.x"]
 
+    def test_names_that_begin_with_a_dash_are_names(self):
+        for name in ("--help", "-r.toml"):
+            for call in (sprung.run, sprung.modes, lambda one: sprung.build([one], "bodies")):
+                with self.assertRaisesRegex(sprung.InputError, rf"^\./{name}: error: cannot be read: No such file"):
+                    call(name)
+
     def test_closed_results_say_that_they_are_closed(self):
         with sprung.run(CAR, overrides={"duration": 0.1}) as results:
             pass

@@ -14,6 +14,7 @@ from sprung_tools.programs.calls import (
     GOOD,
     INTERRUPTED,
     Outcome,
+    as_path,
     call,
     format_overrides,
     make_command,
@@ -34,7 +35,8 @@ def build(designs: Iterable[PathLike], output_dir: PathLike, *, force: bool = Fa
 
     Returns their files. InputError for a design that cannot be used."""
     files = [Path(design) for design in designs]
-    command: list[PathLike] = [find_program(REDUCE), "build", *files, "--output-dir", Path(output_dir), "--quiet"]
+    command: list[PathLike] = [find_program(REDUCE), "build", *map(as_path, files), "--quiet"]
+    command += ["--output-dir", as_path(output_dir)]
     check(call(command + ["--force"] * force), GOOD)
     return [Path(output_dir) / f"{file.stem}.h5" for file in files]
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from sprung_tools.cli.arguments import add_span_arguments
 from sprung_tools.files.errors import InputError, WrongFormatError
 from sprung_tools.files.hdf5_file import RESULTS, SUPERELEMENT, open_hdf5
+from sprung_tools.files.whole_file import check_output
 from sprung_tools.paraview.collection import write_folder
 from sprung_tools.paraview.modes import export_modes
 from sprung_tools.paraview.run import export_run
@@ -68,6 +69,7 @@ def main() -> int:
     )
     add_span_arguments(parser)
     arguments = parser.parse_args()
+    check_output(arguments.output, [arguments.file])
     arguments.is_run = find_format(arguments.file)
     check_arguments(arguments)
 

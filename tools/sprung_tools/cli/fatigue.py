@@ -14,17 +14,18 @@ import argparse
 import csv
 import io
 import json
+import os
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.whole_file import check_output, write_whole
+from sprung_tools.files.whole_file import write_whole
 from sprung_tools.plots.fatigue_picture import DrawnFatigue, Place, make_fatigue_figure
 from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.runs.fatigue import Fatigue, calc_fatigue, calc_life, find_stations
-from sprung_tools.runs.labelled_runs import Run, open_runs, split_label
+from sprung_tools.runs.labelled_runs import Run, check_labelled_output, open_runs
 from sprung_tools.runs.measures import JSON_FORMAT, JSON_VERSION, describe_run
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_doubts
@@ -239,7 +240,9 @@ def main() -> int:
         raise InputError("--histories: error: takes one run, because runs have times of their own")
     for output in (arguments.output, arguments.histories):
         if output:
-            check_output(output, [split_label(one)[1] for one in arguments.runs])
+            check_labelled_output(output, arguments.runs)
+    if arguments.output and os.path.abspath(arguments.output) == os.path.abspath(arguments.histories or ""):
+        raise InputError(f"{arguments.histories}: error: is the name of the picture, too")
     runs = open_runs(arguments.runs)
     windows = [read_window(run.results, arguments.start, arguments.end) for run in runs]
     bodies, gaps = choose_bodies(runs, arguments.bodies)

@@ -13,7 +13,7 @@ from sprung_tools.cli.arguments import add_span_arguments
 from sprung_tools.plots.mode_choice_picture import make_choice_figure, open_choice
 from sprung_tools.plots.mode_history_picture import make_mode_history_figure
 from sprung_tools.plots.picture_file import write_picture
-from sprung_tools.runs.labelled_runs import Run, Shown, open_runs, shown_quantities
+from sprung_tools.runs.labelled_runs import Run, Shown, check_labelled_output, open_runs, shown_quantities
 from sprung_tools.runs.mode_history import read_mode_histories
 from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.terminal.program import make_parser
@@ -57,6 +57,7 @@ def draw_histories(arguments: argparse.Namespace, runs: Sequence[Run]) -> Figure
 
 def main() -> int:
     arguments = parse_arguments()
+    check_labelled_output(arguments.output, arguments.files)
     runs = open_runs(arguments.files) if arguments.over_time else []
     if arguments.over_time:
         figure = draw_histories(arguments, runs)

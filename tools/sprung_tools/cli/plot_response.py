@@ -4,7 +4,7 @@ on a random road, a panel for each output."""
 from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.plots.response_picture import BANDS, MAGNITUDE, SPECTRUM, make_response_figure
 from sprung_tools.runs.labelled_responses import open_responses
-from sprung_tools.runs.labelled_runs import shown_quantities
+from sprung_tools.runs.labelled_runs import check_labelled_output, shown_quantities
 from sprung_tools.terminal.program import make_parser
 
 
@@ -33,6 +33,7 @@ def main() -> int:
     )  # fmt: skip
     arguments = parser.parse_args()
 
+    check_labelled_output(arguments.output, arguments.files)
     responses = open_responses(arguments.files)
     figure = make_response_figure(responses, shown_quantities(arguments.show), arguments.title, arguments.drawing)
     write_picture(figure, arguments.output)

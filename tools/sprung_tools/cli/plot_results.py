@@ -3,7 +3,7 @@
 from sprung_tools.cli.arguments import add_run_arguments
 from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.plots.results_picture import make_results_figure
-from sprung_tools.runs.labelled_runs import list_lacking, open_runs, shown_quantities
+from sprung_tools.runs.labelled_runs import check_labelled_output, list_lacking, open_runs, shown_quantities
 from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.terminal.program import make_parser
 
@@ -20,6 +20,7 @@ def main() -> int:
     parser.add_argument("--mark-road", action="store_true", help="shade the times in which a tyre is on an obstacle")
     arguments = parser.parse_args()
 
+    check_labelled_output(arguments.output, arguments.runs)
     runs = open_runs(arguments.runs)
     title = arguments.title or runs[0].results.title
     span = (arguments.start, arguments.end)

@@ -3,6 +3,7 @@ element changes. It takes what `sprung-reduce sensitivity DESIGN.toml --json` pr
 
 import argparse
 
+from sprung_tools.files.whole_file import check_output
 from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.plots.sensitivity_picture import make_sensitivity_figure, read_elements
 from sprung_tools.terminal.program import make_parser
@@ -22,6 +23,7 @@ def parse_arguments() -> argparse.Namespace:
 
 def main() -> int:
     arguments = parse_arguments()
+    check_output(arguments.output, [arguments.file])
     elements = read_elements(arguments.file)
     write_picture(make_sensitivity_figure(elements, arguments.modes), arguments.output)
     return 0

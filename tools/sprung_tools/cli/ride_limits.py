@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
+from sprung_tools.files.whole_file import check_output
 from sprung_tools.limits.ride_limits import GRAVITY, Obstacles, Terrain, find_roughness, find_speed
 from sprung_tools.limits.root_finding import ABOVE, BELOW, Root
 from sprung_tools.limits.trials import Variant, Vehicle
@@ -301,6 +302,8 @@ def read_search(arguments: argparse.Namespace) -> Search:
 
 def main() -> int:
     arguments = parse_arguments()
+    if arguments.output:
+        check_output(arguments.output, [arguments.run])
     search = read_search(arguments)
     variants = read_variants(arguments.variant, arguments.set)
     if arguments.jobs < 1:

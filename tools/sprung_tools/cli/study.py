@@ -151,7 +151,8 @@ def main() -> int:
     for line in format_errors(finished):
         print(line, file=sys.stderr)
     there = {one.measure for one in columns if not np.all(np.isnan(one.values))}
-    for name in find_missing(study.measures, there):
+    missing = find_missing(study.measures, there)
+    for name in missing:
         print(f"warning: no run has the measure {name}", file=sys.stderr)
     if effects:
         print(f"\n{format_effects(effects)}\n")
@@ -159,4 +160,4 @@ def main() -> int:
     print(f"Open it in a browser: {(options.folder / 'study.html').resolve().as_uri()}")
     if all(row.has_failed for row in finished.rows):
         raise InputError(f"{study.file.path}: error: all runs failed")
-    return 0
+    return CHECK_FAILED if missing else 0

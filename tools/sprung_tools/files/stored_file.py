@@ -22,6 +22,7 @@ H5PY_ERRORS = (
     OSError, KeyError, RuntimeError, ValueError, TypeError, OverflowError, MemoryError, NotImplementedError,
     SystemError,
 )  # fmt: skip
+LARGEST = 1e100  # of what a run or a body may have, in SI units: squares of it are finite
 MOST_COMPRESSED = 1100  # bytes that deflate, which compresses best among HDF5's own filters, makes of one at most
 
 
@@ -137,8 +138,10 @@ class StoredFile:
             values = np.asarray(dataset[()], dtype=float)
         if every > 1:
             values = interpolate_rows(values, every, (self.shape("time") or (0,))[0])
-        if not np.all(np.isfinite(values)):
-            raise self.fail(f"dataset '{name}' holds values that are not finite")
+        largest = np.max(np.abs(values), initial=0.0)
+        if not largest <= LARGEST:
+            what = f"as large as {largest:g}" if np.isfinite(largest) else "that are not finite"
+            raise self.fail(f"dataset '{name}' holds values {what}")
         if found and rule and rule.within is not None:
             self._check_indices(name, values, self._resolve(name, rule.within, found.names))
         return values, self.attribute(name, "unit", str, "")

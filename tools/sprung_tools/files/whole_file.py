@@ -39,5 +39,5 @@ def is_device(path: Path) -> bool:
 
 def check_output(path: str | Path, inputs: Iterable[str | Path]) -> None:
     """Throws InputError if the file to be written is one of those that are read."""
-    if os.path.exists(path) and any(os.path.samefile(path, one) for one in inputs):
+    if any(os.path.exists(one) and os.path.exists(path) and os.path.samefile(path, one) for one in inputs):
         raise InputError(f"{path}: error: is one of the input files, which the output would replace")

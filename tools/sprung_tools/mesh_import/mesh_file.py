@@ -16,7 +16,7 @@ MAYBE_NASTRAN = (".dat", ".pch", ".txt")
 def read_mesh(path: str) -> LineMesh:
     """Reads the line elements of a mesh file; its ending says which format it has. InputError if it cannot be used."""
     if not os.path.isfile(path):
-        raise InputError(f"{path}: error: no such file")
+        raise InputError(f"{path}: error: {'is no regular file' if os.path.exists(path) else 'no such file'}")
     ending = os.path.splitext(path)[1].lower()
     if ending in DECKS:
         return DECKS[ending](path)

@@ -20,6 +20,12 @@ def drawn_unit(unit: str, peak: float) -> tuple[str, float]:
     return (name, factor) if peak < below else (unit, 1.0)
 
 
+def show_span(axes: Axes, start: float, end: float) -> None:
+    """Has an axis of time show a span, unless it is that of a single sample."""
+    if start < end:
+        axes.set_xlim(start, end)
+
+
 def draw_panel(axes: Axes, runs: Sequence[Run], shown: Shown, span: OptionalSpan) -> bool:
     """Draws one quantity of all runs that have it, over the samples of a span of time. Returns whether all runs have
     it."""
@@ -36,7 +42,7 @@ def draw_panel(axes: Axes, runs: Sequence[Run], shown: Shown, span: OptionalSpan
     unit, factor = drawn_unit(units.pop(), max(np.max(np.abs(values)) for _, _, values, _ in curves))
     for run, time, values, _ in curves:
         axes.plot(time, factor * values, label=run.label, **line_style(runs.index(run), len(runs)))
-    axes.set_xlim(min(time[0] for _, time, _, _ in curves), max(time[-1] for _, time, _, _ in curves))
+    show_span(axes, min(time[0] for _, time, _, _ in curves), max(time[-1] for _, time, _, _ in curves))
     axes.set_ylabel(f"{shown.label}, {label_unit(unit)}" if unit else shown.label)
     axes.axhline(0.0, color="0.6", linewidth=0.8, zorder=0)
     axes.grid(color="0.9", linewidth=0.6)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.reduced_vectors import Vector, count_vectors
 from sprung_tools.model.resolved_model import has_resolved_model, read_settings
-from sprung_tools.plots.history_panel import draw_panel
+from sprung_tools.plots.history_panel import draw_panel, show_span
 from sprung_tools.plots.picture_file import COLOURS, make_figure
 from sprung_tools.runs.labelled_runs import Run, Shown, samples_between
 from sprung_tools.runs.mode_history import (
@@ -114,6 +114,6 @@ def make_mode_history_figure(
         draw_panel(axes, runs, shown, span)
         axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderpad=0.0, frameon=False, fontsize=9.5, ncols=3)
     inside = results.time[samples_between(results, *span)]
-    panels[-1].set_xlim(inside[0], inside[-1])
+    show_span(panels[-1], inside[0], inside[-1])
     panels[-1].set_xlabel("time, s")
     return figure

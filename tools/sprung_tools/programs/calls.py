@@ -76,14 +76,19 @@ def name_override(error: str, overrides: Sequence[str]) -> str:
     return overrides[int(found[1]) - 1] + error[found.end() :]
 
 
+def as_path(path: str | Path) -> str | Path:
+    """A path that no program takes for an option."""
+    return os.path.join(".", path) if str(path).startswith("-") else path
+
+
 def make_command(
     program: Path, verb: str, run: Path, superelements: Path | None = None, overrides: Iterable[str] = (),
     output: Path | None = None,
 ) -> list[str | Path]:  # fmt: skip
     """The command line of sprung-dynamics, which prints JSON."""
-    command: list[str | Path] = [program, verb, run, "--json", "--quiet"]
+    command: list[str | Path] = [program, verb, as_path(run), "--json", "--quiet"]
     if superelements is not None:
-        command += ["--superelements", superelements]
+        command += ["--superelements", as_path(superelements)]
     if output is not None:
-        command += ["-o", output]
+        command += ["-o", as_path(output)]
     return command + [word for override in overrides for word in ("--set", override)]

@@ -9,6 +9,7 @@ import numpy as np
 from sprung_tools.files.array_types import Flags
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import ResultsFile, open_results
+from sprung_tools.files.whole_file import check_output
 from sprung_tools.model.reduced_vectors import count_vectors, read_vectors
 
 
@@ -31,6 +32,11 @@ def split_label(argument: str) -> tuple[str, str]:
     argument)."""
     label, separator, value = argument.partition("=")
     return (label, value) if separator and not os.path.exists(argument) else ("", argument)
+
+
+def check_labelled_output(path: str, arguments: Iterable[str]) -> None:
+    """InputError if the file to be written is one of the files `[LABEL=]FILE`."""
+    check_output(path, [split_label(one)[1] for one in arguments])
 
 
 def open_runs(arguments: Iterable[str]) -> list[Run]:

@@ -56,7 +56,7 @@ from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import NOMINAL
 
 JSON_FORMAT, JSON_VERSION = "sprung-measures", 3  # tools/README.md, "Measures"
-HISTORIES = "histories/"
+HISTORIES, OF_HISTORIES = "histories/", ("min", "max", "rms", "mean")
 UNKNOWN = "the run has no such value (tools/README.md, Measures, tells when a value is null)"
 # The units of the measures of each kind of object; those of the summary follow from the ends of their names.
 POINT_UNITS = {
@@ -342,5 +342,5 @@ def measure_history(results: ResultsFile, name: str, window: Span) -> Measures:
     """Lowest, highest, r.m.s. and mean value of a quantity over a span of time."""
     values, unit = results.series(name.removeprefix(HISTORIES))
     values = values[samples_between(results, *window, results.every(name.removeprefix(HISTORIES)))]
-    found = {"min": values.min(), "max": values.max(), "rms": calc_rms(values), "mean": values.mean()}
-    return combine(name, dict.fromkeys(found, unit), found.values())
+    found = (values.min(), values.max(), calc_rms(values), values.mean())
+    return combine(name, dict.fromkeys(OF_HISTORIES, unit), found)

@@ -20,6 +20,7 @@ from sprung_tools.runs.stored_histories import list_gaps
 TOO_MUCH_LEFT_OUT = 0.05  # share of the largest deflection or acceleration
 ALARMING_CLOSURE = 1e-3  # relative
 NEARLY = 0.9  # of the run's largest acceleration
+CONTACT_CHANGES = ("touches the ground", "leaves the ground")  # as in dynamics/forces/tyre.cpp
 
 SUMMARY, MODES, EQUILIBRIUM = "summary", "modes", "equilibrium"  # which numbers a warning concerns
 
@@ -112,7 +113,12 @@ def warn_of_wheels_in_the_air(results: ResultsFile) -> list[RunWarning]:
         return []
     tyres = [force.name for force in read_elements(results, "forces").values() if force.on_road]
     contacts = {name: find_force_channel(results, name, CONTACT) for name in tyres}
-    airborne = [name for name, one in contacts.items() if one and np.any(results.series(one)[0] < 0.5)]
+    has_events = results.file.has_dataset("events/text")
+    happened = zip(*(read_texts(results.file, f"events/{part}") for part in ("object", "text"))) if has_events else ()
+    changed = {name for name, text in happened if text in CONTACT_CHANGES}  # also where no contact is stored
+    airborne = [
+        name for name, one in contacts.items() if name in changed or one and np.any(results.series(one)[0] < 0.5)
+    ]
     if not airborne:
         return []
     text = (

@@ -16,8 +16,8 @@ from sprung_tools.study.designs import reduce_variant
 from sprung_tools.study.kept_rows import Row
 from sprung_tools.study.measure_names import SLIP
 from sprung_tools.study.one_run import Setting, Task
-from sprung_tools.study.plan import Draft, flatten_settings
-from sprung_tools.study.study_file import DESIGN, Study
+from sprung_tools.study.plan import Draft
+from sprung_tools.study.study_file import DESIGN, Study, fail_at_key, flatten_settings
 
 MOST_TRIED = 8
 UNKNOWN = "unknown key"
@@ -61,15 +61,6 @@ def fail_at_design(study: Study, name: str, what: str) -> InputError:
         if cut_key(key, DESIGN, name) and words & set(map(strip_quotes, split_key(key))):
             return fail_at_key(study, key, what)
     return study.file.fail(("designs",), f"{study.designs[name].name}: {what}", fragment=study.designs[name].name)
-
-
-def fail_at_key(study: Study, key: str, what: str) -> InputError:
-    """The error of a key that a parameter has, else that is set for all runs."""
-    for parameter in study.parameters:
-        if key in parameter.keys:
-            name = "key" if len(parameter.keys) == 1 else "keys"
-            return study.file.fail((*parameter.place, name), what, fragment=key)
-    return study.file.fail(("set", *key.split(".")), what)
 
 
 def check_first(study: Study, setting: Setting, tasks: Sequence[Task]) -> None:

@@ -1,10 +1,11 @@
 """Making the runs of a study on all processors, and keeping each row as its run ends."""
 
 import shutil
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import NamedTuple
 
@@ -133,9 +134,9 @@ def make_runs(
         raise InputError(f"{kept.path}: error: {what}") from error
 
 
-def find_missing(wanted: Iterable[str], there: Container[str]) -> list[str]:
-    """The measures without a wildcard that are wanted and not there."""
-    return [name for name in wanted if "*" not in name and name not in there]
+def find_missing(wanted: Iterable[str], there: Collection[str]) -> list[str]:
+    """The names, and the patterns for names, of measures that are wanted and not there."""
+    return [one for one in wanted if not any(fnmatchcase(name, one) for name in there)]
 
 
 @contextmanager

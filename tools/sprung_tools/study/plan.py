@@ -18,7 +18,7 @@ from sprung_tools.study.designs import Variant, hash_parts, make_variant, reduce
 from sprung_tools.study.one_run import Task
 from sprung_tools.study.random_roads import write_road
 from sprung_tools.study.sampling import Point
-from sprung_tools.study.study_file import DESIGN, ROAD, Study
+from sprung_tools.study.study_file import DESIGN, RANDOM_ROAD, Study, flatten_settings
 
 ROW_VERSION = 3  # counts up when the same input gives other rows
 
@@ -50,7 +50,7 @@ class Planner:
         for parameter, value in zip(self.study.parameters, point):
             changed |= parameter.settings(value)
         all_changes = json.dumps(changed, default=str, sort_keys=True)
-        road_changes = take_inside(changed, ROAD) if self.study.random_road else {}
+        road_changes = take_inside(changed, RANDOM_ROAD) if self.study.random_road else {}
         variants: dict[str, Variant] = {}
         road, road_hash, problem = None, "", ""
         try:
@@ -167,17 +167,6 @@ def take_inside(settings: dict[str, Any], *names: str) -> dict[str, Any]:
     """Takes the settings whose keys begin with parts of these names, without them."""
     found = {key: rest for key in settings if (rest := cut_key(key, *names))}
     return {rest: settings.pop(key) for key, rest in found.items()}
-
-
-def flatten_settings(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Tables in tables as keys with dots: {"road": {"height": 0.1}} → {"road.height": 0.1}."""
-    flat: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, dict):
-            flat |= flatten_settings(value, f"{prefix}{key}.")
-        else:
-            flat[f"{prefix}{key}"] = value
-    return flat
 
 
 def list_texts(value: Any) -> list[str]:

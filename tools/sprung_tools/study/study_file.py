@@ -3,23 +3,27 @@
 
 import math
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import Place, TomlFile
-from sprung_tools.files.toml_text import cut_key, format_key, split_key
+from sprung_tools.files.toml_text import cut_key, format_key, split_key, strip_quotes
+from sprung_tools.runs.measures import HISTORIES, OF_HISTORIES
 
 GRID, LIST, LATIN, SOBOL = "grid", "list", "latin-hypercube", "sobol"
 METHODS = (GRID, LIST, LATIN, SOBOL)
 COMMANDS = ("run", "response", "modes", "equilibrium")
 LINEAR, LOGARITHMIC = "linear", "logarithmic"
-DESIGN, ROAD = "design", "random_road"  # first parts of the keys of designs and of the random road
+DESIGN, RANDOM_ROAD = "design", "random_road"  # first parts of the keys of designs and of the random road
+ROAD = "road"  # the table that a random road replaces
 ROOT_KEYS = ("run", "command", "superelements", "designs", "set", "measures", "sampling", "random_road", "parameters")
 SAMPLING_KEYS = ("method", "number", "seed")
 PARAMETER_KEYS = ("name", "key", "keys", "values", "from", "to", "number", "spacing", "crossed")
 ROAD_KEYS = ("class", "rms", "density", "band", "exponent", "length", "spacing", "ease", "start", "seed")
+COLUMNS_BEFORE = ("run",)  # columns of the table beside parameters and measures
+COLUMNS_BEHIND = ("exit_code", "converged", "warnings", "error", "set", "hash")
 MOST_RUNS = 1_000_000
 
 
@@ -171,7 +175,9 @@ def read_study(path: str | Path) -> Study:
     overrides = root.take("set", lambda one: isinstance(one, dict), "a table of keys and values", {})
     study = Study(file, run, root.choice("command", COMMANDS, "run"), superelements, designs, overrides, measures,
                   sampling, road, parameters)  # fmt: skip
+    check_names(study)
     check_keys(study)
+    check_overlaps(study)
     if road:
         check_road(study)
     return study
@@ -197,10 +203,22 @@ def read_measures(root: Reader) -> dict[str, str]:
             problem = "has a label, which one measure needs, and no pattern" if label else "has an empty label"
         elif name in measures or label in measures.values():
             problem = "has a name or a label that stands twice in 'measures'"
+        elif name.startswith(HISTORIES):
+            problem = find_problem_of_history(name)
         if problem:
             raise root.file.fail(("measures",), f"'{entry}' {problem}", fragment=entry)
         measures[name] = label
     return measures
+
+
+def find_problem_of_history(name: str) -> str:
+    """What is wrong with a measure `histories/QUANTITY/MEASURE`; empty if nothing is."""
+    quantity, _, measure = name.rpartition("/")
+    if "*" in quantity:
+        return "has a pattern in its quantity, of which only the whole name is taken"
+    if "*" not in measure and measure not in OF_HISTORIES:
+        return f"has the measure '{measure}' of a quantity, expected one of {', '.join(OF_HISTORIES)}"
+    return ""
 
 
 def read_sampling(file: TomlFile) -> Sampling:
@@ -292,9 +310,9 @@ def place_between(low: float, high: float, spacing: str, share: float) -> float:
 
 def check_road(study: Study) -> None:
     """Throws InputError where neither the table of the random road, nor a parameter, nor 'set' has what it needs."""
-    given = {cut_key(key, ROAD) for one in study.parameters for key in one.keys}
-    given |= {cut_key(key, ROAD) for key in study.overrides}
-    given |= set(study.random_road) | set(study.overrides.get(ROAD, {}))
+    given = {cut_key(key, RANDOM_ROAD) for one in study.parameters for key in one.keys}
+    given |= {cut_key(key, RANDOM_ROAD) for key in study.overrides}
+    given |= set(study.random_road) | set(study.overrides.get(RANDOM_ROAD, {}))
     for key in ("length", "spacing"):
         if key not in given:
             raise study.file.fail(("random_road",), f"'{key}' is missing in 'random_road', expected a number in m")
@@ -302,6 +320,51 @@ def check_road(study: Study) -> None:
     if len(levels) != 1:
         found = " and ".join(levels) or "none"
         raise study.file.fail(("random_road",), f"'random_road' needs one of 'class', 'rms', 'density', got {found}")
+
+
+def check_names(study: Study) -> None:
+    """Throws InputError for a name that two columns of the table would have."""
+    taken = {*COLUMNS_BEFORE, *COLUMNS_BEHIND}
+    for parameter in study.parameters:
+        if parameter.name in taken:
+            raise fail_at_key(study, parameter.keys[0], f"'{parameter.name}' is a column of the table; give a 'name'")
+        taken.add(parameter.name)
+    for name, label in study.measures.items():
+        if label in taken:
+            what = f"'{label}' is a parameter or another column of the table, expected another label"
+            raise study.file.fail(("measures",), what, fragment=f"{label}={name}")
+
+
+def fail_at_key(study: Study, key: str, what: str) -> InputError:
+    """The error of a key that a parameter has, else that is set for all runs."""
+    for parameter in study.parameters:
+        if key in parameter.keys:
+            name = "key" if len(parameter.keys) == 1 else "keys"
+            return study.file.fail((*parameter.place, name), what, fragment=key)
+    return study.file.fail(("set", *key.split(".")), what)
+
+
+def flatten_settings(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Tables in tables as keys with dots: {"road": {"height": 0.1}} → {"road.height": 0.1}."""
+    flat: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, dict):
+            flat |= flatten_settings(value, f"{prefix}{key}.")
+        else:
+            flat[f"{prefix}{key}"] = value
+    return flat
+
+
+def check_overlaps(study: Study) -> None:
+    """Throws InputError for a key inside the table that another one sets: one of them would have no effect."""
+    keys = [*(key for one in study.parameters for key in one.keys), *flatten_settings(study.overrides)]
+    parts = {key: tuple(map(strip_quotes, split_key(key))) for key in keys}
+    for key, own in parts.items():
+        if study.random_road and own[:1] == (ROAD,):
+            raise fail_at_key(study, key, f"'{key}' has no effect: [random_road] makes the road")
+        for other, whole in parts.items():
+            if len(whole) < len(own) and own[: len(whole)] == whole:
+                raise fail_at_key(study, key, f"'{key}' lies in '{other}', which is set as a whole, too")
 
 
 def check_keys(study: Study) -> None:
@@ -319,8 +382,8 @@ def check_keys(study: Study) -> None:
                 if not any(cut_key(key, DESIGN, name) for name in study.designs):
                     there = ", ".join(map(format_key, study.designs)) or "none"
                     raise study.file.fail(at, f"'{key}' is no key of a design (designs: {there})", fragment=key)
-            elif parts[0] == ROAD and len(parts) > 1:
-                if cut_key(key, ROAD) not in ROAD_KEYS:
+            elif parts[0] == RANDOM_ROAD and len(parts) > 1:
+                if cut_key(key, RANDOM_ROAD) not in ROAD_KEYS:
                     raise study.file.fail(at, f"'{key}' is unknown (keys of the random road: {', '.join(ROAD_KEYS)})",
                                           fragment=key)  # fmt: skip
                 if not study.random_road:

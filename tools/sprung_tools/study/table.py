@@ -12,6 +12,7 @@ import numpy as np
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.toml_text import format_value
 from sprung_tools.study.execution import Finished
+from sprung_tools.study.study_file import COLUMNS_BEFORE, COLUMNS_BEHIND
 
 FORMAT, VERSION = "sprung-study", 1
 
@@ -76,7 +77,7 @@ def format_csv(finished: Finished, columns: list[Column]) -> str:
     writer = csv.writer(text, lineterminator="\n")
     names = [one.name for one in finished.study.parameters]
     headings = [f"{one.name} [{one.unit}]" if one.unit else one.name for one in columns]
-    writer.writerow(["run", *names, *headings, "exit_code", "converged", "warnings", "error", "set", "hash"])
+    writer.writerow([*COLUMNS_BEFORE, *names, *headings, *COLUMNS_BEHIND])
     for number, (point, task, row) in enumerate(zip(finished.points, finished.tasks, finished.rows)):
         writer.writerow([
             number + 1, *map(format_cell, point), *(format_number(one.values[number]) for one in columns),

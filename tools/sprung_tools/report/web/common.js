@@ -41,7 +41,10 @@ function format(value, digits = 4) {
 }
 
 /** The values that an axis is marked at, without needless zeros. */
-const formatTick = (value) => String(Number(value.toPrecision(6))).replaceAll("-", "−");
+const formatTick = (value) => {
+  const rounded = Number(value.toPrecision(6));
+  return (Math.abs(rounded) < 1e7 ? String(rounded) : rounded.toExponential().replace("e+", "e")).replaceAll("-", "−");
+};
 
 /** An element with text or children. */
 function element(tag, attributes = {}, ...children) {
