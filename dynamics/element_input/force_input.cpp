@@ -77,6 +77,7 @@ void read_spring_damper(const support::TomlTable& table, ForceDescription& force
   parameters.free_length = read_free_length(table, force);
   read_laws(table, kTranslation, parameters);
   if (force.static_length && !table.has("spring")) {
+    table.reject_unknown_keys();
     throw table.at("free_length").error("can follow from the static length only where there is a 'spring'");
   }
   force.parameters = std::move(parameters);

@@ -34,7 +34,7 @@ using ForceParameters = std::variant<SpringDamper::Parameters, RotationalSpringD
                                      Bushing::Parameters, LeafSpring::Parameters, AirSpring::Parameters>;
 
 /// A length in static equilibrium, from which the free length of a spring-damper follows, or the pressure of
-/// an air spring (dynamics/program/static_lengths.h).
+/// an air spring (dynamics/preparation/static_lengths.h).
 struct StaticLength {
   std::string key;               ///< that asks for it: "free_length.static"
   std::optional<double> length;  ///< [m]; none: the distance of the points as the vehicle file has them

@@ -213,17 +213,17 @@ bool PiecewisePolynomial::is_constant() const {
 }
 
 std::size_t PiecewisePolynomial::find_piece(double x) const {
-  const std::size_t last = last_piece_.get();
+  const std::size_t last = last_piece_;
   if (breaks_.size() > kMany && last < breaks_.size() && x >= (last > 0 ? breaks_[last - 1] : x)) {
     if (x < breaks_[last]) return last;
     if (last + 1 < breaks_.size() && x < breaks_[last + 1]) {
-      last_piece_.set(last + 1);
+      last_piece_ = last + 1;
       return last + 1;
     }
   }
   const auto i =
       static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin());
-  if (breaks_.size() > kMany) last_piece_.set(i);
+  if (breaks_.size() > kMany) last_piece_ = i;
   return i;
 }
 

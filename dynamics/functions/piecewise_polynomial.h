@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -66,23 +65,6 @@ class PiecewisePolynomial {
   void calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const;
 
  private:
-  // The piece found last, where the next search begins. Results do not depend on it, so threads may share a
-  // function.
-  class LastPiece {
-   public:
-    LastPiece() = default;
-    LastPiece(const LastPiece& other) : piece_(other.get()) {}
-    LastPiece& operator=(const LastPiece& other) {
-      set(other.get());
-      return *this;
-    }
-    std::size_t get() const { return piece_.load(std::memory_order_relaxed); }
-    void set(std::size_t piece) { piece_.store(piece, std::memory_order_relaxed); }
-
-   private:
-    std::atomic<std::size_t> piece_{0};
-  };
-
   std::size_t find_piece(double x) const;
   void add_piece(double origin, std::span<const double> coefficients);
   void clear();  // leaves no piece
@@ -93,7 +75,9 @@ class PiecewisePolynomial {
   std::vector<double> coefficients_;  // of all pieces, one after the other
   std::vector<std::size_t> starts_;   // P + 1: where those of each piece start, and where the last ones end
   std::vector<double> integrals_;     // P: ∫ from 0 to the origin of the piece
-  mutable LastPiece last_piece_;
+  // The piece found last, where the next search begins. Results do not depend on it; threads may not share
+  // it.
+  mutable std::size_t last_piece_ = 0;
 };
 
 }  // namespace sprung::dynamics

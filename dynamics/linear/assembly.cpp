@@ -183,10 +183,7 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
     if (factor.info() != Eigen::Success) throw_cannot_close(model, phi);
     Eigen::VectorXd step = -(weighted * factor.solve(phi));
-    double largest = 0.0;
-    for (int i = 0; i < model.num_coordinates; ++i) {
-      largest = std::max(largest, std::abs(step[i]) / model.coordinate_scale(i));
-    }
+    const double largest = model.largest_natural(step);
     if (largest > 0.3) step *= 0.3 / largest;  // far from closed, small steps stay on the right branch
     q += step;
     terms.update_positions(0.0, q);

@@ -36,11 +36,7 @@ bool moves_bodies(const Model& model, const Eigen::VectorXd& direction) {
 NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
   NeutralDirection neutral;
   std::vector<std::string> moving;
-  double largest = 0.0;
-  for (int i = 0; i < model.num_coordinates; ++i) {
-    largest = std::max(largest, std::abs(direction[i]) / model.coordinate_scale(i));
-  }
-  direction /= largest;
+  direction /= model.largest_natural(direction);
   const double sign = [&] {
     Eigen::Index i = 0;
     direction.cwiseAbs().maxCoeff(&i);

@@ -34,10 +34,7 @@ bool has_failed(const Model& model, const Eigen::VectorXd& q, Search& search, do
     search.next_wait = 1;
     return false;
   }
-  double distance = 0.0;
-  for (int i = 0; i < model.num_coordinates; ++i)
-    distance = std::max(distance, std::abs(q[i] - search.watch->q[i]) / model.coordinate_scale(i));
-  return distance > search.watch->reach || search.watch->steps_left-- == 0;
+  return model.largest_natural(q - search.watch->q) > search.watch->reach || search.watch->steps_left-- == 0;
 }
 
 Eigen::VectorXd return_to_watch(const ModalForce& modal, Search& search) {

@@ -13,18 +13,6 @@ namespace {
 
 constexpr double kClosed = 1e-12;  // of the length scale: how exactly PartitionedEquations closes joints
 
-// K x of the bodies' modes, or |K| x. @param x  nq×k   @return nq×k
-Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd& x, bool of_sizes = false) {
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(x.rows(), x.cols());
-  for (const Body& body : model.bodies) {
-    const Eigen::Index first = body.first_coordinate + 3, n = body.num_modes();
-    if (n == 0) continue;
-    const Eigen::MatrixXd K = of_sizes ? Eigen::MatrixXd(body.stiffness.cwiseAbs()) : body.stiffness;
-    product.middleRows(first, n) = K * x.middleRows(first, n);
-  }
-  return product;
-}
-
 // Rounding errors of the dependent coordinates: those of the joints that they close, nq.
 Eigen::VectorXd calc_coordinate_rounding(const Model& model, const Partition& partition,
                                          const Eigen::VectorXd& q) {

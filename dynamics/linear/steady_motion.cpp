@@ -36,15 +36,6 @@ Eigen::VectorXd calc_carried_acceleration(const Model& model, const SteadyMotion
   return motion.rotate_back(model, relative, time);
 }
 
-// The largest entry in natural sizes.
-double largest_natural(const Model& model, const Eigen::VectorXd& values) {
-  double largest = 0.0;
-  for (int i = 0; i < model.num_coordinates; ++i) {
-    largest = std::max(largest, std::abs(values[i]) / model.coordinate_scale(i));
-  }
-  return largest;
-}
-
 }  // namespace
 
 Eigen::VectorXd SteadyMotion::calc_velocity(const Model& model, const Eigen::VectorXd& q) const {
@@ -124,13 +115,13 @@ bool is_steady(const Model& model, const SteadyMotion& motion, const Eigen::Vect
   const Eigen::VectorXd here = calc_carried_acceleration(model, motion, place, 0.0);
   const Eigen::VectorXd w = motion.calc_velocity(model, place);
   const double size =
-      largest_natural(model, here) + largest_natural(model, motion.calc_acceleration(model, place, w));
+      model.largest_natural(here) + model.largest_natural(motion.calc_acceleration(model, place, w));
   for (const double turn : kTurns) {
     const double time =
         turn / (motion.omega != 0.0 ? std::abs(motion.omega) : motion.velocity.norm() / model.length_scale);
     const Eigen::VectorXd there =
         calc_carried_acceleration(model, motion, motion.move_positions(model, place, time), time);
-    if (there.size() != here.size() || largest_natural(model, there - here) > kSame * size) return false;
+    if (there.size() != here.size() || model.largest_natural(there - here) > kSame * size) return false;
   }
   return true;
 }

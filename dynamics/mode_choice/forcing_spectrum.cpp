@@ -230,9 +230,8 @@ Eigen::VectorXcd calc_histories(const Eigen::Ref<const Eigen::RowVectorXcd>& lin
     throw std::invalid_argument(
         fmt::format("calc_history: {} times are too few for {} lines", n, std::max(m, others.size())));
   }
-  thread_local Eigen::FFT<double> fft;
-  thread_local std::vector<std::complex<double>> series, values;
-  series.assign(static_cast<std::size_t>(n), 0.0);
+  static Eigen::FFT<double> fft;  // keeps the roots of unity
+  std::vector<std::complex<double>> series(static_cast<std::size_t>(n), 0.0), values;
   const std::complex<double> i(0.0, 1.0);
   for (Eigen::Index k = 0; k < m; ++k) {
     const std::complex<double> other = i * others[k], mirrored = i * std::conj(others[k]);

@@ -40,9 +40,8 @@ void HarmonicInputs::calc_gains(double frequency, Gains& gains) const {
   gains.direct.rightCols(applied_.cols()) = applied_direct_.cast<std::complex<double>>();
   if (num_wheels_ == 0) return;
   const RoadWave wave = make_road_wave(frequency, speed_);
-  thread_local std::vector<WrenchGain> wrenches;
-  thread_local Eigen::VectorXcd channels;
-  wrenches.resize(vehicle_->model().markers.size());
+  std::vector<WrenchGain> wrenches(vehicle_->model().markers.size());
+  Eigen::VectorXcd channels;
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     const auto column = static_cast<Eigen::Index>(w);
     vehicle_->calc_road_wrenches(wheels_[w], wave, wrenches, channels);

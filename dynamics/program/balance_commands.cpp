@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "dynamics/input/soft_twin.h"
+#include "dynamics/bracket/soft_twin.h"
 #include "dynamics/linear/frequency_bounds.h"
 #include "dynamics/linear/linearisation.h"
 #include "dynamics/linear/state_derivatives.h"

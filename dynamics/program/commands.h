@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "dynamics/program/prepared_run.h"
+#include "dynamics/preparation/prepared_run.h"
 
 namespace sprung::dynamics {
 

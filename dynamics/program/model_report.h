@@ -6,7 +6,7 @@
 
 #include "dynamics/output/run_warnings.h"
 #include "dynamics/output/storage_plan.h"
-#include "dynamics/program/prepared_run.h"
+#include "dynamics/preparation/prepared_run.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {

@@ -8,10 +8,10 @@
 #include "dynamics/linear/random_linearisation.h"
 #include "dynamics/output/response_report.h"
 #include "dynamics/output/response_writer.h"
+#include "dynamics/output/resting_forces.h"
+#include "dynamics/preparation/start_state.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
-#include "dynamics/program/start_state.h"
-#include "dynamics/system/system_terms.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/hdf5/foreign_file.h"
 #include "tools/support/terminal/print.h"
@@ -85,10 +85,7 @@ std::vector<RunWarning> list_lifting_wheels(const PreparedRun& prepared, const L
   std::vector<RunWarning> warnings;
   if (!result.has_road()) return warnings;
   const Model& model = vehicle.model();
-  SystemTerms terms(model);
-  terms.update_positions(0.0, prepared.equilibrium->q);
-  terms.update_velocities(Eigen::VectorXd::Zero(model.num_coordinates));
-  const std::vector<int> branches = terms.find_branches();
+  const RestingForces at_equilibrium(model, prepared.equilibrium->q);
   for (std::size_t i = 0; i < result.subjects.size(); ++i) {
     const OutputSubject& subject = result.subjects[i];
     if (subject.kind != OutputSubject::Kind::kChannel || subject.role != ChannelRole::kForce) continue;
@@ -96,8 +93,7 @@ std::vector<RunWarning> list_lifting_wheels(const PreparedRun& prepared, const L
     const auto* tyre = std::get_if<TyreDescription>(&prepared.vehicle.forces[f].parameters);
     if (tyre == nullptr || !tyre->parameters.one_sided) continue;
     const ForceElement& force = *model.forces[f];
-    std::vector<double> values(force.channels().size());
-    force.calc_channels(terms.instant_of(f), model.branches_of(f, branches), values);
+    const std::vector<double> values = at_equilibrium.calc_channels(f);
     const auto is_force = [](const Channel& channel) { return channel.role == ChannelRole::kForce; };
     const auto channels = force.channels();
     const auto place = std::find_if(channels.begin(), channels.end(), is_force) - channels.begin();

@@ -18,13 +18,6 @@ constexpr double kFallen = 2.0, kRecovered = 1.1;
 constexpr double kGrown = 2.0;  // the smallest pivot, where the step leaves a change point that lies behind
 constexpr double kNear = 1e-5;  // of the natural size: how far joints may be open before they are closed
 
-double find_rate(const Model& model, const Eigen::VectorXd& v) {
-  double rate = 0.0;
-  for (int i = 0; i < model.num_coordinates; ++i)
-    rate = std::max(rate, std::abs(v[i]) / model.coordinate_scale(i));
-  return rate;
-}
-
 void read(const ConstrainedEquations& equations, ChangePointStep::End& end) {
   end.time = equations.terms().time();
   end.q = equations.q();
@@ -51,7 +44,7 @@ bool ChangePointStep::close(double time, std::span<const int> branches) {
 bool ChangePointStep::pass(const ConstrainedEquations& from, const Partition& partition,
                            std::span<const int> branches, double longest) {
   read(from, begin_);
-  const double rate = find_rate(*model_, begin_.v);
+  const double rate = model_->largest_natural(begin_.v);
   if (!(rate > 0.0)) return false;
   DependentSolver dependents(from.terms().jacobian(), partition, model_->num_coordinates);
   dependents.factorise(from.terms().jacobian());

@@ -114,6 +114,13 @@ double Model::coordinate_scale(int coordinate) const {
   return local == 2 ? 1.0 : length_scale / bodies[static_cast<std::size_t>(body)].mode_scale[local - 3];
 }
 
+double Model::largest_natural(const Eigen::VectorXd& values) const {
+  double largest = 0.0;
+  for (int i = 0; i < num_coordinates; ++i)
+    largest = std::max(largest, std::abs(values[i]) / coordinate_scale(i));
+  return largest;
+}
+
 double Model::calc_rounding(const Eigen::VectorXd& q) const {
   constexpr double kUnits = 4.0 * std::numeric_limits<double>::epsilon();
   double place = 0.0, angle = 0.0;
@@ -135,6 +142,17 @@ int Model::find_marker(const std::string& name) const {
   const auto found =
       std::find_if(markers.begin(), markers.end(), [&](const Marker& marker) { return marker.name == name; });
   return found == markers.end() ? -1 : static_cast<int>(found - markers.begin());
+}
+
+Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd& x, bool of_sizes) {
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+  for (const Body& body : model.bodies) {
+    const Eigen::Index first = body.first_coordinate + 3, n = body.num_modes();
+    if (n == 0) continue;
+    const Eigen::MatrixXd K = of_sizes ? Eigen::MatrixXd(body.stiffness.cwiseAbs()) : body.stiffness;
+    product.middleRows(first, n) = K * x.middleRows(first, n);
+  }
+  return product;
 }
 
 void number_model(Model& model) {

@@ -75,6 +75,8 @@ struct Model {
   /// Natural size of a coordinate: length_scale for positions, 1 for angles, for a modal coordinate the value
   /// that moves some node by length_scale.
   double coordinate_scale(int coordinate) const;
+  /// The largest absolute entry over the natural size of its coordinate. @param values  num_coordinates
+  double largest_natural(const Eigen::VectorXd& values) const;
   /// Residual of joints that are closed as well as the rounding of coordinates allows: it counts where bodies
   /// are far from the origin, or have turned many times [m, rad].
   /// @param q  num_coordinates
@@ -82,6 +84,9 @@ struct Model {
   int find_body(const std::string& name) const;    ///< -1 if there is none
   int find_marker(const std::string& name) const;  ///< -1 if there is none
 };
+
+/// K x of the bodies' modes, or |K| x. @param x  num_coordinates × k   @return the same
+Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd& x, bool of_sizes = false);
 
 /// Numbers coordinates, constraints, branches and internal states, and measures the model. Call once bodies,
 /// markers, joints and forces are complete.

@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/program/prepared_run.h"
+#include "dynamics/preparation/prepared_run.h"
 #include "dynamics/simulation/transient.h"
 #include "tests/benchmark/dense_baseline.h"
 #include "tools/support/terminal/program.h"

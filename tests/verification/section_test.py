@@ -311,9 +311,9 @@ class LinearBending(VerificationCase):
             self.assertAlmostEqual(effect, abs(deflection / right - 1.0), delta=0.1)
 
     def test_a_column_under_load_is_told_whatever_it_stores_by_compression(self):
-        # Clamped at one end it buckles at π² EI/4L² = 2467 N. Its compression stores far more than its bending does. The
-        # deflection under the force across it is w = 3Lx² − x³, so P ∫w'² dx / EI ∫w''² dx = 2PL²/5EI of EI = 4000 N m²
-        # and L = 2 m.
+        # Clamped at one end it buckles at π² EI/4L² = 2467 N, EI = 4000 N m² and L = 2 m. Its compression stores far
+        # more than its bending does. The force across it bends it to w = 3Lx² − x³, so that the effect is
+        # P ∫w'² dx / EI ∫w''² dx = 2PL²/5EI.
         beam = CANTILEVER.format(wall="origin", held="left", loaded="right")
         for force, is_told in ((1700.0, True), (100.0, True), (50.0, False)):
             vehicle = beam.replace("[0.0, -10.0]", f"[{-force}, -1.0]")

@@ -10,20 +10,6 @@
 
 namespace sprung::dynamics {
 
-namespace {
-
-// K x of the bodies' modes. @param x  nq×k   @return nq×k
-Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd& x) {
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(x.rows(), x.cols());
-  for (const Body& body : model.bodies) {
-    const Eigen::Index first = body.first_coordinate + 3, n = body.num_modes();
-    if (n > 0) product.middleRows(first, n) = body.stiffness * x.middleRows(first, n);
-  }
-  return product;
-}
-
-}  // namespace
-
 PartitionedOde::PartitionedOde(const Model& model)
     : model_(&model), equations_(model), piece_(model), scales_(model) {
   y_.resize(static_cast<std::size_t>(size()));

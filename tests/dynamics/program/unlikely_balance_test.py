@@ -25,6 +25,30 @@ class WheelsUnderTheRoad(DynamicsTestCase):
         self.assertNotIn("gravity", process.stderr)
 
 
+class SuspensionsOnStops(DynamicsTestCase):
+    def test_a_stop_that_bears_load_at_rest_is_remarked_on(self):
+        # The half car's static deflection is 0.15 m; a stop that a reader takes for travel begins before it.
+        templates = ROOT / "dynamics/models/templates"
+        text = (templates / "half_car.toml").read_text(encoding="utf-8")
+        run = (templates / "half_car_run.toml").read_text(encoding="utf-8")
+        (self.folder / "bump.toml").write_text(run.replace("half_car.toml", "vehicle.toml"), encoding="utf-8")
+        for old, new, said in (
+            ("compression_stop = { deflection = 0.22", "compression_stop = { deflection = 0.07",
+             "beyond the begin of its compression stop: its deflection is"),
+            ("", "", None),
+        ):
+            (self.folder / "vehicle.toml").write_text(text.replace(old, new) if old else text, encoding="utf-8")
+            for verb in ("run", "equilibrium", "modes"):
+                settings = ("--set", "duration=0.01") if verb == "run" else ()
+                process = self.run_program(*settings, verb=verb)
+                self.assertEqual(process.returncode, 0, process.stderr)
+                if said:
+                    self.assertRegex(process.stderr, rf"remark: vehicle.toml:\d+:\d+: in static equilibrium "
+                                     rf"'forces\.\w+' is [\d.]+ m {said} [\d.]+ m, the stop begins at 0.07 m")
+                else:
+                    self.assertNotIn(" stop: its deflection", process.stderr)
+
+
 class TurnedSprings(DynamicsTestCase):
     def setUp(self):
         super().setUp()

@@ -49,13 +49,17 @@ void Hdf5Reader::fail(std::string_view message) const {
   throw InputError({.path = path_.string()}, message);
 }
 
+hdf5::StoredDataset Hdf5Reader::open(const std::string& dataset) const {
+  return {file_.get(), dataset, file_size_, compression_ == Compression::kAllowed};
+}
+
 bool Hdf5Reader::has(const std::string& object) const {
   return attempt([&] { return hdf5::exists(file_.get(), object); });
 }
 
 std::vector<std::int64_t> Hdf5Reader::shape(const std::string& dataset) const {
   return attempt([&] {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
+    const hdf5::StoredDataset stored = open(dataset);
     return std::vector<std::int64_t>(stored.shape().begin(), stored.shape().end());
   });
 }
@@ -63,7 +67,7 @@ std::vector<std::int64_t> Hdf5Reader::shape(const std::string& dataset) const {
 std::vector<double> Hdf5Reader::reals(const std::string& dataset,
                                       const std::vector<std::int64_t>& shape) const {
   return attempt([&] {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
+    const hdf5::StoredDataset stored = open(dataset);
     stored.expect_shape(shape);
     return stored.read_doubles();
   });
@@ -73,7 +77,7 @@ std::vector<std::int64_t> Hdf5Reader::read_reals(
     const std::string& dataset, const std::vector<std::int64_t>& shape,
     const std::function<std::span<double>(const std::vector<std::int64_t>&)>& place) const {
   return attempt([&] {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
+    const hdf5::StoredDataset stored = open(dataset);
     stored.expect_shape(shape);
     std::vector<std::int64_t> found(stored.shape().begin(), stored.shape().end());
     stored.read_doubles(place(found));
@@ -84,7 +88,7 @@ std::vector<std::int64_t> Hdf5Reader::read_reals(
 std::vector<double> Hdf5Reader::real_rows(const std::string& dataset, std::size_t first,
                                           std::size_t count) const {
   return attempt([&] {
-    hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
+    hdf5::StoredDataset stored = open(dataset);
     stored.select_rows(first, count);
     return stored.read_doubles();
   });
@@ -93,7 +97,7 @@ std::vector<double> Hdf5Reader::real_rows(const std::string& dataset, std::size_
 std::vector<std::int64_t> Hdf5Reader::integers(const std::string& dataset,
                                                const std::vector<std::int64_t>& shape) const {
   return attempt([&] {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
+    const hdf5::StoredDataset stored = open(dataset);
     stored.expect_shape(shape);
     return stored.read_integers();
   });
@@ -102,7 +106,7 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& dataset,
 std::vector<std::string> Hdf5Reader::strings(const std::string& dataset,
                                              const std::vector<std::int64_t>& shape) const {
   return attempt([&] {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
+    const hdf5::StoredDataset stored = open(dataset);
     stored.expect_shape(shape);
     return stored.read_strings();
   });

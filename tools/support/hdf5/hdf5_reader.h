@@ -10,6 +10,10 @@
 
 #include "tools/support/hdf5/hdf5_handle.h"
 
+namespace sprung::support::hdf5 {
+class StoredDataset;
+}
+
 namespace sprung::support {
 
 /// Reads an HDF5 file strictly. A missing dataset, an unexpected type or shape, NaN, infinity or a wrong
@@ -48,6 +52,7 @@ class Hdf5Reader {
 
  private:
   [[noreturn]] void fail(std::string_view message) const;
+  hdf5::StoredDataset open(const std::string& dataset) const;
   template <typename Function>
   auto attempt(Function&& function) const;  // HDF5's failures as InputError of this file
 

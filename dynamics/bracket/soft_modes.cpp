@@ -1,4 +1,4 @@
-#include "dynamics/input/soft_modes.h"
+#include "dynamics/bracket/soft_modes.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "dynamics/program/massless_check.h"
+#include "dynamics/preparation/massless_check.h"
 
 #include <fmt/format.h>
 

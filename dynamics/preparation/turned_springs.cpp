@@ -1,4 +1,4 @@
-#include "dynamics/program/turned_springs.h"
+#include "dynamics/preparation/turned_springs.h"
 
 #include <Eigen/Geometry>
 

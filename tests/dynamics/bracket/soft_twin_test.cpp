@@ -1,4 +1,4 @@
-#include "dynamics/input/soft_twin.h"
+#include "dynamics/bracket/soft_twin.h"
 
 #include <fmt/format.h>
 

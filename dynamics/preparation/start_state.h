@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/program/prepared_run.h"
+#include "dynamics/preparation/prepared_run.h"
 
 namespace sprung::dynamics {
 

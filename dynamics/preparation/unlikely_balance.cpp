@@ -1,4 +1,4 @@
-#include "dynamics/program/unlikely_balance.h"
+#include "dynamics/preparation/unlikely_balance.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/program/turned_springs.h"
+#include "dynamics/output/resting_forces.h"
+#include "dynamics/preparation/turned_springs.h"
 #include "dynamics/system/system_terms.h"
 #include "tools/support/errors/input_error.h"
 
@@ -33,11 +34,37 @@ void check_tyre(const ForceDescription& force, double height, std::vector<std::s
   remarks.push_back(remark_at(force.location, text));
 }
 
+// A suspension that stands on a stop, or hangs in it: springs that bear no load, or a stop that is measured
+// from elsewhere.
+void check_stops(const ForceDescription& force, const ForceElement& element, std::span<const double> channels,
+                 std::vector<std::string>& remarks) {
+  const auto channel = std::find_if(element.channels().begin(), element.channels().end(),
+                                    [](const Channel& one) { return one.role == ChannelRole::kDeflection; });
+  if (channel == element.channels().end()) return;
+  const double deflection = channels[static_cast<std::size_t>(channel - element.channels().begin())];
+  for (const Parameter& parameter : element.describe().parameters) {
+    const bool is_compression = parameter.name == "compression_stop";
+    if (!is_compression && parameter.name != "rebound_stop") continue;
+    const double beyond = (is_compression ? 1.0 : -1.0) * (deflection - std::get<double>(parameter.value));
+    if (!(beyond > 0.0)) continue;
+    remarks.push_back(remark_at(
+        force.location,
+        fmt::format(
+            "'forces.{}' is {:.3g} {} beyond the begin of its {}: its deflection is {:.4g} {}, the stop "
+            "begins at {:.4g} {} of deflection from the free length",
+            force.name, beyond, channel->unit, is_compression ? "compression stop" : "rebound stop",
+            deflection, channel->unit, std::get<double>(parameter.value), channel->unit)));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Model& model,
                                                const Eigen::VectorXd& drawn, const Eigen::VectorXd& found) {
   std::vector<std::string> remarks;
+  const RestingForces at_rest(model, found);
+  for (std::size_t f = 0; f < vehicle.forces.size(); ++f)
+    check_stops(vehicle.forces[f], *model.forces[f], at_rest.calc_channels(f), remarks);
   SystemTerms terms(model);
   terms.update_positions(0.0, found);
   bool has_tyres = false;

@@ -1,4 +1,4 @@
-#include "dynamics/program/automatic_modes.h"
+#include "dynamics/preparation/automatic_modes.h"
 
 #include <algorithm>
 #include <string>
@@ -6,7 +6,7 @@
 #include "dynamics/input/make_model.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
-#include "dynamics/program/massless_check.h"
+#include "dynamics/preparation/massless_check.h"
 #include "dynamics/road/flat_road.h"
 #include "dynamics/section_loads/linear_moments.h"
 

@@ -1,4 +1,4 @@
-#include "dynamics/program/static_lengths.h"
+#include "dynamics/preparation/static_lengths.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include "dynamics/input/make_model.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
-#include "dynamics/program/massless_check.h"
-#include "dynamics/program/turned_springs.h"
+#include "dynamics/preparation/massless_check.h"
+#include "dynamics/preparation/turned_springs.h"
 #include "dynamics/system/system_terms.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"

@@ -1,4 +1,4 @@
-#include "dynamics/program/prepared_run.h"
+#include "dynamics/preparation/prepared_run.h"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@
 #include "dynamics/input/uncovered_loads.h"
 #include "dynamics/input/unit_remarks.h"
 #include "dynamics/output/run_warnings.h"
-#include "dynamics/program/automatic_modes.h"
-#include "dynamics/program/massless_check.h"
-#include "dynamics/program/start_state.h"
-#include "dynamics/program/unlikely_balance.h"
+#include "dynamics/preparation/automatic_modes.h"
+#include "dynamics/preparation/massless_check.h"
+#include "dynamics/preparation/start_state.h"
+#include "dynamics/preparation/unlikely_balance.h"
 #include "dynamics/road/flat_road.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/files/read_text_file.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/input/soft_modes.h"
+#include "dynamics/bracket/soft_modes.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/system/model.h"
 
@@ -33,7 +33,7 @@ struct SoftTwin {
 /// @param model  of the vehicle, with the whole basis of each body that has modes
 /// @throws support::InputError at a body whose soft twin does not exist: without a bound, with a part of its
 ///         basis, with stiffening, or with loads at freedoms that are not in its interface
-/// Checked by tests/dynamics/input/soft_twin_test.cpp and tests/verification/certified_test.py
+/// Checked by tests/dynamics/bracket/soft_twin_test.cpp and tests/verification/certified_test.py
 SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model);
 
 /// The coordinates of the soft twin where the model is at q and the soft modes are at zero.

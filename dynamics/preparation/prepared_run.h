@@ -13,7 +13,7 @@
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/mode_choice/basis_choice.h"
-#include "dynamics/program/static_lengths.h"
+#include "dynamics/preparation/static_lengths.h"
 #include "tools/support/terminal/program.h"
 
 namespace sprung::dynamics {

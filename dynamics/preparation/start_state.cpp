@@ -1,4 +1,4 @@
-#include "dynamics/program/start_state.h"
+#include "dynamics/preparation/start_state.h"
 
 #include <fmt/format.h>
 
