@@ -229,9 +229,6 @@ Vehicle read_vehicle(const support::TomlDocument& document, const std::filesyste
   const support::TomlTable root = document.root();
   Vehicle vehicle;
   vehicle.text = document.text();
-  if (const std::optional<support::TomlValue> named =
-          root.has("vehicle") ? root.find("vehicle") : std::nullopt)
-    throw named->error("makes this a run file; expected a vehicle file");
   vehicle.name = root.string("name");
   static const std::array<std::string, 2> kHeadings{"+x", "-x"};
   if (const std::optional<support::TomlValue> heading = root.find("heading")) {

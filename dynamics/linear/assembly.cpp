@@ -152,24 +152,20 @@ void find_widest_motion_gap(const Model& model, const Eigen::VectorXd& phi, Asse
   }
 }
 
-}  // namespace
-
-AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
-  SystemTerms terms(model);
-  terms.update_positions(0.0, q);
+// Moves the bodies until the joints are closed; the masses are those of the start.
+// @param[in,out] terms  at the positions q   @return the largest residual
+double close_joints(SystemTerms& terms, Eigen::VectorXd& q) {
+  const Model& model = terms.model();
   terms.update_mass();
   Eigen::VectorXd inverse_mass = terms.calc_metric().cwiseInverse();
   for (const Body& body : model.bodies)
     inverse_mass.segment(body.first_coordinate + 3, body.num_modes()) *= kReluctanceToDeform;
-  std::vector<Eigen::Vector2d> start;
-  for (const MarkerState& marker : terms.markers()) start.push_back(marker.r);
-
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
-  terms.calc_residual(phi);
-  AssemblyReport report;
-  find_widest_gap(model, phi, report);
-  find_widest_motion_gap(model, phi, report);
-  double size = model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
+  const auto calc_size = [&] {
+    terms.calc_residual(phi);
+    return model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
+  };
+  double size = calc_size();
   for (int iteration = 0; size > std::max(kClosingTolerance * model.length_scale, model.calc_rounding(q));
        ++iteration) {
     if (iteration == kMaxClosingIterations) throw_cannot_close(model, phi);
@@ -177,7 +173,7 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
     const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
     const Eigen::SparseMatrix<double> weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
     Eigen::SparseMatrix<double> normal = Phi_q * weighted;
-    // Redundant joints make the matrix singular; the shift allows for them, and they are reported below.
+    // Redundant joints make the matrix singular; the shift allows for them, and they are reported afterwards.
     const double shift = kRegularisation * normal.diagonal().maxCoeff();
     for (Eigen::Index i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
@@ -187,16 +183,30 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
     if (largest > 0.3) step *= 0.3 / largest;  // far from closed, small steps stay on the right branch
     q += step;
     terms.update_positions(0.0, q);
-    terms.calc_residual(phi);
-    size = phi.lpNorm<Eigen::Infinity>();
+    size = calc_size();
   }
+  return size;
+}
 
+}  // namespace
+
+AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
+  SystemTerms terms(model);
+  terms.update_positions(0.0, q);
+  std::vector<Eigen::Vector2d> start;
+  for (const MarkerState& marker : terms.markers()) start.push_back(marker.r);
+  AssemblyReport report;
+  Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
+  terms.calc_residual(phi);
+  find_widest_gap(model, phi, report);
+  find_widest_motion_gap(model, phi, report);
+
+  report.residual = close_joints(terms, q);
   terms.update_jacobian();
   terms.update_mass();
   const std::vector<int> dependent = find_dependent_constraints(terms);
   if (!dependent.empty()) throw_redundant(terms, dependent);
 
-  report.residual = size;
   for (std::size_t i = 0; i < start.size(); ++i) {
     const double movement = (terms.markers()[i].r - start[i]).norm();
     if (movement > report.largest_movement) {

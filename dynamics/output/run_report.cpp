@@ -150,7 +150,7 @@ std::string format_summary(const RunSummary& summary) {
           {"modes left out, together",
            fmt::format("{:.3g} % of the r.m.s. acceleration of {}, largest changed by {:.3g} %{}",
                        100.0 * missing.rms_share, name_missing_point(*summary.adaptivity, missing),
-                       100.0 * missing.peak_change, summary.adaptivity->continues ? kSinceStart : "")});
+                       100.0 * missing.peak_change, summary.adaptivity->continues ? kHistoryUnknown : "")});
     }
   }
   for (const CertifiedError& body : summary.statistics.certified())

@@ -79,7 +79,7 @@ std::string describe_missing(const MissingAcceleration& missing, const Adaptivit
       "all modes left out together are {:.3g} % of the r.m.s. acceleration of {}, most of it along {}, and "
       "would change its largest by {:.3g} %{}; ",
       100.0 * missing.rms_share, name_missing_point(adaptivity, missing), missing.direction == 0 ? "x" : "y",
-      100.0 * missing.peak_change, adaptivity.continues ? kSinceStart : "");
+      100.0 * missing.peak_change, adaptivity.continues ? kHistoryUnknown : "");
 }
 
 void add_remarks(const std::vector<BodyRemark>& remarks, const RunStatistics& statistics,

@@ -53,7 +53,7 @@ support::Json make_warnings_json(const std::vector<RunWarning>& warnings);
 /// The point at which modes left out are missing the most.
 std::string name_missing_point(const AdaptivityOptions& adaptivity, const MissingAcceleration& missing);
 /// Follows what modes left out together would add to a run that continues another.
-inline constexpr const char* kSinceStart = " (what they did before its start is not known)";
+inline constexpr const char* kHistoryUnknown = " (what they did before its start is not known)";
 
 /// Writes /warnings (dynamics/output/results.md); of the places of files their names alone.
 void write_warnings(support::Hdf5Writer& file, const std::vector<RunWarning>& warnings);

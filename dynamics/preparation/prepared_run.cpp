@@ -111,58 +111,57 @@ void read_files(const RunRequest& request, Preparation preparation, PreparedRun&
 }
 
 // Damping and stiffening of the flexible bodies of the models.
-struct Flexibility {
+struct ModalProperties {
   ModalDamping damping;
   StiffenedBodies stiffened;
 };
 
 // Selects the modes that the run file asks for, and chooses those of bodies with modes "auto".
-Flexibility choose_modes(PreparedRun& prepared) {
+ModalProperties choose_modes(PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
   prepared.selection = resolve_modes(run, vehicle);
   prepared.available = resolve_available_modes(run, prepared.selection, vehicle);
-  Flexibility flexibility{.damping = resolve_modal_damping(run.modal_damping, prepared.available, vehicle),
-                          .stiffened = resolve_stiffening(run.stiffening, prepared.available, vehicle)};
-  if (run.adaptivity.enabled && !flexibility.stiffened.empty()) {
+  ModalProperties properties{.damping = resolve_modal_damping(run.modal_damping, prepared.available, vehicle),
+                             .stiffened = resolve_stiffening(run.stiffening, prepared.available, vehicle)};
+  if (run.adaptivity.enabled && !properties.stiffened.empty()) {
     throw support::InputError(
         run.adaptivity.location,
         "'adaptivity' cannot be enabled together with 'stiffening': held modes would not be stiffened; "
         "take a fixed set of modes, or leave stiffening out");
   }
-  if (list_automatic_bodies(run.modes).empty()) return flexibility;
-  const ModalDamping start_damping =
-      keep_damping(flexibility.damping, prepared.available, prepared.selection);
+  if (list_automatic_bodies(run.modes).empty()) return properties;
+  const ModalDamping start_damping = keep_damping(properties.damping, prepared.available, prepared.selection);
   prepared.choice = choose_automatic_modes(run, vehicle, prepared.selection, start_damping,
-                                           flexibility.stiffened, *prepared.road);
+                                           properties.stiffened, *prepared.road);
   prepared.selection = keep_modes(*prepared.choice, prepared.selection);
   if (!run.adaptivity.enabled) {
-    flexibility.damping = keep_damping(flexibility.damping, prepared.available, prepared.selection);
+    properties.damping = keep_damping(properties.damping, prepared.available, prepared.selection);
     prepared.available = prepared.selection;
-    std::erase_if(flexibility.stiffened,
+    std::erase_if(properties.stiffened,
                   [&](const std::string& body) { return !prepared.selection.contains(body); });
   }
-  return flexibility;
+  return properties;
 }
 
 // Finds the free lengths of springs whose static length is given, for the balance with some modes.
-void find_free_lengths(const Flexibility& flexibility, const ModeSelection& modes, PreparedRun& prepared) {
+void find_free_lengths(const ModalProperties& properties, const ModeSelection& modes, PreparedRun& prepared) {
   prepared.static_lengths = solve_static_lengths(prepared.vehicle, [&](const Vehicle& vehicle) {
-    return make_model(vehicle, modes, {prepared.level_road.get(), vehicle.direction, 0.0},
-                      flexibility.damping, MotionUse::kHeld, flexibility.stiffened);
+    return make_model(vehicle, modes, {prepared.level_road.get(), vehicle.direction, 0.0}, properties.damping,
+                      MotionUse::kHeld, properties.stiffened);
   });
 }
 
 // The vehicle on level ground.
-Model make_balance_model(const Flexibility& flexibility, const PreparedRun& prepared) {
+Model make_balance_model(const ModalProperties& properties, const PreparedRun& prepared) {
   return make_model(prepared.vehicle, prepared.available,
-                    {prepared.level_road.get(), prepared.vehicle.direction, 0.0}, flexibility.damping,
+                    {prepared.level_road.get(), prepared.vehicle.direction, 0.0}, properties.damping,
                     prepared.run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld,
-                    flexibility.stiffened);
+                    properties.stiffened);
 }
 
 // "" for none.
-void tell_remark(std::string remark, const RunRequest& request, PreparedRun& prepared) {
+void report_remark(std::string remark, const RunRequest& request, PreparedRun& prepared) {
   if (remark.empty()) return;
   if (!request.quiet) support::print(request.streams.err, "remark: {}\n", remark);
   prepared.remarks.push_back(std::move(remark));
@@ -170,12 +169,12 @@ void tell_remark(std::string remark, const RunRequest& request, PreparedRun& pre
 
 // Assembles the vehicle and, if the preparation needs it, finds its equilibrium on level ground.
 // @return its coordinates
-Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation,
+Eigen::VectorXd find_balance(const ModalProperties& properties, Preparation preparation,
                              const RunRequest& request, PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
-  find_free_lengths(flexibility, prepared.available, prepared);
-  prepared.balance_model = make_balance_model(flexibility, prepared);
+  find_free_lengths(properties, prepared.available, prepared);
+  prepared.balance_model = make_balance_model(properties, prepared);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   check_massless_bodies(vehicle, prepared.balance_model, q);
@@ -190,18 +189,18 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   check_steady(run, prepared.balance_model, *prepared.equilibrium);
   for (std::string& remark :
        list_unlikely_balance(vehicle, prepared.balance_model, q, prepared.equilibrium->q))
-    tell_remark(std::move(remark), request, prepared);
+    report_remark(std::move(remark), request, prepared);
   return prepared.equilibrium->q;
 }
 
 // The same; where there is no balance, the error tells of wheels that are drawn under the road, or of bodies
 // that are drawn far from each other.
-Eigen::VectorXd find_balance_or_explain(const Flexibility& flexibility, Preparation preparation,
+Eigen::VectorXd find_balance_or_explain(const ModalProperties& properties, Preparation preparation,
                                         const RunRequest& request, PreparedRun& prepared) {
   try {
-    return find_balance(flexibility, preparation, request, prepared);
+    return find_balance(properties, preparation, request, prepared);
   } catch (const support::NumericalError& error) {
-    const Model model = make_balance_model(flexibility, prepared);
+    const Model model = make_balance_model(properties, prepared);
     Eigen::VectorXd q = make_start_positions(model, prepared.vehicle);
     reject_wheels_under_road(prepared.vehicle, model, q);
     const std::string far = describe_far_element(prepared.vehicle, model, q),
@@ -241,22 +240,22 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
     if (!remark.empty())
       remark +=
           fmt::format("; the statistics, up to {:.6g} s, do not contain it", prepared.run.statistics_to);
-    tell_remark(std::move(remark), request, prepared);
+    report_remark(std::move(remark), request, prepared);
   }
   // Modes are chosen about the balance of the rigid vehicle, if the run asks for a choice.
   if (!list_automatic_bodies(prepared.run.modes).empty()) find_free_lengths({}, {}, prepared);
-  const Flexibility flexibility = choose_modes(prepared);
+  const ModalProperties properties = choose_modes(prepared);
   if (preparation == Preparation::kChoice) return prepared;
 
-  const Eigen::VectorXd q = find_balance_or_explain(flexibility, preparation, request, prepared);
+  const Eigen::VectorXd q = find_balance_or_explain(properties, preparation, request, prepared);
   SystemTerms terms(prepared.balance_model);
   terms.update_positions(0.0, q);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
-  prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, flexibility.damping,
-                              MotionUse::kMoving, flexibility.stiffened);
+  prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, properties.damping,
+                              MotionUse::kMoving, properties.stiffened);
   for (std::string& remark : list_uncovered_loads(vehicle, prepared.model))
-    tell_remark(std::move(remark), request, prepared);
+    report_remark(std::move(remark), request, prepared);
   IntegratorSettings& integrator = prepared.run.integrator;
   if (!integrator.names_method)
     integrator.options.method = default_method(prepared.model.num_freedoms(), prepared.model.has_modes());

@@ -132,8 +132,8 @@ void warn_of_lost_damping(const Vehicle& vehicle, const Model& model, const std:
 }
 
 // Prints the warnings about the model at once, as a run does. @return these, and those about the balance
-std::vector<RunWarning> tell_warnings(const PreparedRun& prepared, const RestingSections& resting,
-                                      std::FILE* err) {
+std::vector<RunWarning> report_warnings(const PreparedRun& prepared, const RestingSections& resting,
+                                        std::FILE* err) {
   std::vector<RunWarning> warnings =
       list_model_warnings(prepared.balance_model, prepared.assembly, prepared.start, nullptr);
   for (const RunWarning& one : warnings) support::print(err, "warning: {}\n", one.text);
@@ -185,7 +185,7 @@ int equilibrium_command(const RunRequest& request, bool json) {
                              prepared.run.start == Run::Start::kSteady,
                              make_start_positions(model, prepared.vehicle),
                              &resting.loads,
-                             tell_warnings(prepared, resting, request.streams.err)};
+                             report_warnings(prepared, resting, request.streams.err)};
   support::print(request.streams.out, "{}",
                  json ? format_report_json(request, "equilibrium", prepared, report.warnings,
                                            make_equilibrium_json(report))
@@ -200,7 +200,7 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   VehicleSections sections(prepared.vehicle, model);
   const RestingSections resting =
       calc_resting_sections(prepared.vehicle, model, *prepared.equilibrium, sections);
-  std::vector<RunWarning> warnings = tell_warnings(prepared, resting, request.streams.err);
+  std::vector<RunWarning> warnings = report_warnings(prepared, resting, request.streams.err);
   warn_of_rounding(*prepared.equilibrium, warnings);
   warn_of_rounded_modes(model, modes, warnings);
   warn_of_forces_at_rest(prepared, warnings);

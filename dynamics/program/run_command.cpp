@@ -83,7 +83,7 @@ void print_description(std::FILE* out, const PreparedRun& prepared) {
   if (prepared.choice) support::print(out, "{}", summarise_choice(*prepared.choice));
 }
 
-void print_gravest(std::FILE* err, const std::vector<RunWarning>& warnings) {
+void print_urgent_warnings(std::FILE* err, const std::vector<RunWarning>& warnings) {
   for (const RunWarning& warning : warnings) {
     if (goes_to_stderr(warning)) support::print(err, "warning: {}\n", warning.text);
   }
@@ -260,6 +260,40 @@ void give_up_writing(WrittenRun& run, std::FILE* err) {
     support::print(err, "partial results: {}; to continue, run again with --resume\n", partial.string());
 }
 
+// The warnings about the model and its start, of which the urgent ones are printed, and about the files.
+std::vector<RunWarning> report_model_warnings(const PreparedRun& prepared, std::FILE* err) {
+  std::vector<RunWarning> warnings =
+      list_model_warnings(prepared.model, prepared.assembly, prepared.start,
+                          prepared.equilibrium ? &*prepared.equilibrium : nullptr);
+  warn_of_missed_road(prepared, warnings);
+  warn_of_other_speed(prepared, warnings);
+  print_urgent_warnings(err, warnings);
+  for (RunWarning& remark : list_file_warnings(prepared.remarks))  // printed when the file was read
+    warnings.push_back(std::move(remark));
+  return warnings;
+}
+
+void print_dry_run(const RunRequest& request, const RunOutput& output, const PreparedRun& prepared,
+                   const std::vector<RunWarning>& warnings, const StoragePlan& storage) {
+  support::print(request.streams.out, "{}",
+                 output.json ? format_report_json(request, "run --dry-run", prepared, warnings,
+                                                  make_model_json(prepared, storage))
+                             : format_model(prepared, storage));
+}
+
+void print_run(const RunRequest& request, const RunOutput& output, const PreparedRun& prepared,
+               const RunSummary& summary) {
+  if (output.json) {
+    support::Json report = make_start_json(prepared);
+    report.update(make_summary_json(summary));
+    support::print(request.streams.out, "{}",
+                   format_report_json(request, "run", prepared, summary.warnings, report));
+    return;
+  }
+  support::print(request.streams.out, "{}", format_summary(summary));
+  if (!output.results.empty()) support::print(request.streams.out, "Results: {}\n", output.results.string());
+}
+
 }  // namespace
 
 int run_command(const RunRequest& request, const RunOutput& output) {
@@ -270,27 +304,18 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   const Run& run = prepared.run;
   check_continued_file(run, output.results);
-  if (!output.json && !request.quiet && !output.dry_run) print_description(streams.out, prepared);
-  std::vector<RunWarning> model_warnings =
-      list_model_warnings(prepared.model, prepared.assembly, prepared.start,
-                          prepared.equilibrium ? &*prepared.equilibrium : nullptr);
-  warn_of_missed_road(prepared, model_warnings);
-  warn_of_other_speed(prepared, model_warnings);
-  print_gravest(streams.err, model_warnings);
-  for (RunWarning& remark : list_file_warnings(prepared.remarks))  // told when the file was read
-    model_warnings.push_back(std::move(remark));
+  const bool prints = !output.json && !request.quiet;
+  if (prints && !output.dry_run) print_description(streams.out, prepared);
+  const std::vector<RunWarning> model_warnings = report_model_warnings(prepared, streams.err);
   TransientOptions options = make_options(run, prepared.model);
   std::optional<Model> full_model;
   options.adaptivity = make_adaptivity(prepared, full_model);
   VehicleSections sections(prepared.vehicle, prepared.model);
   if (output.dry_run) {
-    const StoragePlan storage = plan_storage(make_header(prepared, request, options.adaptivity, sections),
-                                             {prepared.vehicle, prepared.model, sections,
-                                              options.adaptivity ? options.adaptivity->full : nullptr});
-    support::print(streams.out, "{}",
-                   output.json ? format_report_json(request, "run --dry-run", prepared, model_warnings,
-                                                    make_model_json(prepared, storage))
-                               : format_model(prepared, storage));
+    print_dry_run(request, output, prepared, model_warnings,
+                  plan_storage(make_header(prepared, request, options.adaptivity, sections),
+                               {prepared.vehicle, prepared.model, sections,
+                                options.adaptivity ? options.adaptivity->full : nullptr}));
     return support::kGood;
   }
 
@@ -301,7 +326,6 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   WrittenRun written;
   if (!output.results.empty())
     written = open_results(output, make_header(prepared, request, options.adaptivity, sections), statistics);
-  const bool prints = !output.json && !request.quiet;
   if (written.writer && prints)
     support::print(streams.out, "Results: {}\n", describe_storage(written.writer->storage(), run.output));
   if (output.resume && prints) print_resumption(streams.out, written.checkpoint);
@@ -320,20 +344,14 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const AdaptivityOptions* adaptivity = options.adaptivity ? &*options.adaptivity : nullptr;
   std::vector<RunWarning> warnings =
       list_run_warnings(prepared.vehicle, prepared.model, statistics, transient, adaptivity);
-  print_gravest(streams.err, warnings);
+  print_urgent_warnings(streams.err, warnings);
   warnings.insert(warnings.end(), model_warnings.begin(), model_warnings.end());
   if (written.writer) written.writer->finish(statistics, transient, warnings);
   times.cpu = cpu_time() - request.earlier_cpu_time;
   const double began = written.checkpoint ? written.checkpoint->state.time : prepared.start.time;
-  const RunSummary summary{
-      run,   statistics, transient, run.duration - began,
-      times, adaptivity, warnings,  written.writer ? &written.writer->storage() : nullptr};
-  support::Json report = make_start_json(prepared);
-  report.update(make_summary_json(summary));
-  support::print(
-      streams.out, "{}",
-      output.json ? format_report_json(request, "run", prepared, warnings, report) : format_summary(summary));
-  if (written.writer && !output.json) support::print(streams.out, "Results: {}\n", output.results.string());
+  print_run(request, output, prepared,
+            {run, statistics, transient, run.duration - began, times, adaptivity, warnings,
+             written.writer ? &written.writer->storage() : nullptr});
   return is_converged(warnings) ? support::kGood : support::kCheckFailed;
 }
 

@@ -91,11 +91,11 @@ ClampedModes calc_clamped_modes(const ModalProblem& problem, int num_modes,
     // Some more than wanted: the gap above the last one has to be seen, and guards quicken the convergence.
     const Eigen::Index wanted = std::min<Eigen::Index>(n, num_modes + (Eigen::Index{4} << attempt));
     const bool dense = take_dense(n, wanted, options.method);
-    options.tell(fmt::format("{} modes of {} freedoms", dense ? n : wanted, problem.size()));
+    options.report_progress(fmt::format("{} modes of {} freedoms", dense ? n : wanted, problem.size()));
     const EigenPairs pairs = dense ? solve_all(problem)
                                    : solve_sparse(problem, static_cast<int>(wanted),
                                                   options.seed + static_cast<std::uint64_t>(attempt));
-    options.tell("count of the modes");
+    options.report_progress("count of the modes");
     ModeProof proof = prove_complete(problem, pairs, num_modes);
     if (proof.modes) return std::move(*proof.modes);
     reason = std::move(proof.reason);

@@ -19,7 +19,7 @@ struct ClampedModeOptions {
   std::uint64_t seed = 1;                        ///< of the sparse method's start vector
   Progress progress = {};                        ///< may be empty
 
-  void tell(const std::string& state) const {
+  void report_progress(const std::string& state) const {
     if (progress) progress(state);
   }
 };

@@ -35,10 +35,10 @@ int count_below(const ModalProblem& problem, double omega_squared) {
 std::optional<ClampedModes> find_uncounted(const ModalProblem& problem, double omega_squared,
                                            const ClampedModeOptions& options) {
   if (problem.size() <= kMostSimplicial || options.method == EigenMethod::kDense) return std::nullopt;
-  options.tell(fmt::format("modes of {} freedoms", problem.size()));
+  options.report_progress(fmt::format("modes of {} freedoms", problem.size()));
   const EigenPairs pairs = solve_sparse_below(problem, omega_squared, options.seed);
   const auto num_below = static_cast<int>((pairs.omega_squared.array() < omega_squared).count());
-  options.tell("count of the modes");
+  options.report_progress("count of the modes");
   return prove_complete(problem, pairs, num_below + 1).modes;
 }
 
@@ -53,7 +53,7 @@ ModesBelow calc_modes_below(const ModalProblem& problem, double frequency_hz,
   if (uncounted) {
     wanted = static_cast<int>((uncounted->pairs.omega_squared.array() < omega * omega).count());
   } else {
-    options.tell(fmt::format("count of the modes below {:.3g} Hz", frequency_hz));
+    options.report_progress(fmt::format("count of the modes below {:.3g} Hz", frequency_hz));
     wanted = count_below(problem, omega * omega);
   }
   while (true) {

@@ -124,9 +124,9 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
   for (const std::string& remark : read.matrices ? read.matrices->remarks : std::vector<std::string>{})
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
-  const auto tell = [&](const std::string& state) { progress.update(state); };
-  const Superelement made = make_superelement(read, {.progress = tell});
-  tell("writing the file");
+  const auto report_progress = [&](const std::string& state) { progress.update(state); };
+  const Superelement made = make_superelement(read, {.progress = report_progress});
+  report_progress("writing the file");
   write_superelement(made, output);
   progress.finish();
   report(options, fmt::format("{}: {}", output.string(), describe(made)));

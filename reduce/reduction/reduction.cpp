@@ -152,11 +152,11 @@ ModalProblem make_modal_problem(const fem::BeamModel& model, int node) {
 
 Superelement make_superelement(const Design& design, const ClampedModeOptions& options) {
   const fem::BeamModel& model = design.model;
-  options.tell("factors of the stiffness");
+  options.report_progress("factors of the stiffness");
   const BodyMatrices matrices = make_body_matrices(design);
   BodyBasis basis = make_body_basis(design, matrices, options);
 
-  options.tell("inertia, section loads and checks");
+  options.report_progress("inertia, section loads and checks");
   Superelement s;
   s.name = design.name;
   copy_mesh(model.mesh, matrices.node_positions, s);

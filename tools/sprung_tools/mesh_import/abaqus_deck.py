@@ -17,7 +17,7 @@ from sprung_tools.mesh_import.abaqus_assembly import Assembly
 from sprung_tools.mesh_import.abaqus_blocks import Block, read_blocks
 from sprung_tools.mesh_import.abaqus_part import GENERATING, MESHING, Element, Part, is_line_kind
 from sprung_tools.mesh_import.frame_properties import Material, PointMass
-from sprung_tools.mesh_import.line_mesh import LineMesh, pick_members, shorten, tell_split
+from sprung_tools.mesh_import.line_mesh import LineMesh, pick_members, shorten, describe_split
 
 KINDS = {  # how a beam of that type deforms in Abaqus
     "B21": "shear-flexible", "B31": "shear-flexible", "PIPE21": "shear-flexible", "PIPE31": "shear-flexible",
@@ -248,7 +248,7 @@ class Deck:
                 if element.kind == kind and (keyword, number) not in self.weighed
             ]
             texts += [f"elements {shorten(bare)} of type {kind}, to which no *{keyword} gives anything"] if bare else []
-        texts += tell_split(len(owners) - len(set(owners)))
+        texts += describe_split(len(owners) - len(set(owners)))
         moved = [(one.name, one.nodes, one.elements) for one in self.assembly.instances.values()]
         if any(block.keyword in ("NODE", "ELEMENT") for block in self.of_assembly):
             moved.append(("the assembly's own", self.assembly.offsets["N"], self.assembly.offsets["E"]))

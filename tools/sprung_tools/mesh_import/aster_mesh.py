@@ -7,7 +7,7 @@ from typing import NamedTuple, NoReturn
 import numpy as np
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.mesh_import.line_mesh import LineMesh, order_along, pick_members, tell_split
+from sprung_tools.mesh_import.line_mesh import LineMesh, order_along, pick_members, describe_split
 from sprung_tools.mesh_import.number_text import parse_real
 
 DIMENSIONS = {"COOR_1D": 1, "COOR_2D": 2, "COOR_3D": 3}
@@ -52,7 +52,7 @@ def read_aster_mesh(path: str) -> LineMesh:
             groups[block.keyword][name] = members
         elif OTHER_CELLS.fullmatch(block.keyword) or block.keyword == "POI1":
             others[block.keyword] = others.get(block.keyword, 0) + 1
-    left_behind = tell_split(split) + [f"elements {kind}, which are not lines" for kind in others]
+    left_behind = describe_split(split) + [f"elements {kind}, which are not lines" for kind in others]
     left_behind.append("sections, materials and orientations: they stand in the command file (.comm)")
     element_sets = pick_members(groups["GROUP_MA"], {place: place for place in range(len(lines))})
     return LineMesh(

@@ -56,7 +56,7 @@ def order_along(size: int) -> list[int]:
     return [0, *range(2, size), 1]
 
 
-def tell_split(count: int) -> list[str]:
+def describe_split(count: int) -> list[str]:
     """What becomes of lines with middle nodes, of which there are `count`: one text, or none."""
     return [f"middle nodes of {count} lines: each has become straight ones from node to node"] if count else []
 

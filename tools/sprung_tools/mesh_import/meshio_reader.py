@@ -8,7 +8,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Integers
 from sprung_tools.files.errors import InputError
-from sprung_tools.mesh_import.line_mesh import LineMesh, order_along, shorten, tell_split
+from sprung_tools.mesh_import.line_mesh import LineMesh, order_along, shorten, describe_split
 from sprung_tools.mesh_import.meshio_process import run_meshio
 
 # These cell data number the source's own entities or families; the names of these are read elsewhere.
@@ -44,7 +44,7 @@ def read_with_meshio(path: str) -> LineMesh:
         lines=lines,
         element_sets=element_sets,
         node_sets=node_sets,
-        left_behind=[*tell_split(halved), *list_left_behind(mesh, element_sets)],
+        left_behind=[*describe_split(halved), *list_left_behind(mesh, element_sets)],
     )
 
 

@@ -127,7 +127,8 @@ def make_runs(
                 if not (row.has_failed or has_good):
                     has_good = True
                     for name in find_missing(setting.measures, row.measures):
-                        progress.tell(f"warning: the first run has no measure {name}; the others are made all the same")
+                        what = f"the first run has no measure {name}; the others are made all the same"
+                        progress.report(f"warning: {what}")
                 progress.step(note=f", {failures} failed" if failures else "")
     except BrokenProcessPool as error:
         what = "a process of the study was ended from outside; started again, the study goes on"

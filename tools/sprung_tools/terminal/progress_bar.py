@@ -27,7 +27,7 @@ class Progress:
             self.stream.write("\r\x1b[K")
             self.stream.flush()
 
-    def tell(self, text: str) -> None:
+    def report(self, text: str) -> None:
         """A line above the bar."""
         self.stream.write(f"\r\x1b[K{text}\n" if self.on_terminal else f"{text}\n")
         self.stream.flush()

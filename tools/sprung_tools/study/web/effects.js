@@ -29,12 +29,12 @@ function drawEffects() {
   const measure = columnOf(byId("effect-measure"));
   if (!measure) return;
   const found = effectsOf(measure), percent = (share) => `${(100 * share).toFixed(0)} %`,
-    tell = (one) => (one.share === null ? "cannot be judged" : one.share > one.chance ? percent(one.share) : "no more than chance");
+    describe = (one) => (one.share === null ? "cannot be judged" : one.share > one.chance ? percent(one.share) : "no more than chance");
   byId("effect-table").replaceChildren(
     element("thead", {}, element("tr", {}, ...["parameter", "explains of the variance", "chance up to", "lowest mean", "highest mean"]
       .map((text, k) => element("th", {class: k ? "number" : ""}, text)))),
     element("tbody", {}, ...found.map((one) => element("tr", {}, element("th", {scope: "row"}, one.parameter),
-      ...[tell(one), percent(one.chance), ...rangeOf(one.means).map((mean) => format(mean))]
+      ...[describe(one), percent(one.chance), ...rangeOf(one.means).map((mean) => format(mean))]
         .map((text) => element("td", {class: "number"}, text))))));
   const canvas = byId("effect-plot");
   canvas.style.minWidth = `${EFFECT_LEFT + EFFECT_RIGHT + LEAST_SHARE * found.length}px`;
