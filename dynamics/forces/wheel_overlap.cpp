@@ -135,11 +135,6 @@ WheelOverlap calc_wheel_overlap(const Road& road, double s, double y, double rad
   return overlap;
 }
 
-double calc_level_overlap(double radius, double penetration) {
-  const double alpha = std::acos(1.0 - penetration / radius);
-  return radius * radius * (alpha - std::sin(alpha) * std::cos(alpha));
-}
-
 double find_level_penetration(double radius, double area) {
   if (!(area > 0.0)) return 0.0;
   const double target = std::min(2.0 * area / (radius * radius), std::numbers::pi);  // 2α − sin 2α

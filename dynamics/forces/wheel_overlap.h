@@ -25,10 +25,7 @@ struct WheelOverlap {
 /// @param num_cells  ≥ 2
 WheelOverlap calc_wheel_overlap(const Road& road, double s, double y, double radius, int num_cells);
 
-/// The overlap with level ground at a penetration δ: R² (α − sin α cos α), cos α = 1 − δ/R (forces, eq. 8).
-/// @param penetration  from 0 to radius [m] @return [m²]
-double calc_level_overlap(double radius, double penetration);
-/// The inverse: the penetration on level ground that has this overlap.
+/// The penetration δ of level ground with an overlap R² (α − sin α cos α), cos α = 1 − δ/R (forces, eq. 8).
 /// @param area  ≥ 0; more than half of the wheel's area counts as half [m²] @return [m]
 double find_level_penetration(double radius, double area);
 

@@ -147,12 +147,6 @@ OscillatorResponse by_two_rates(double stiffness, double decay, double time, int
 
 }  // namespace
 
-OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time, int max_power) {
-  OscillatorResponse response;
-  calc_oscillator_responses({&stiffness, 1}, {&decay, 1}, time, max_power, {&response, 1});
-  return response;
-}
-
 void calc_oscillator_responses(std::span<const double> stiffness, std::span<const double> decay, double time,
                                int max_power, std::span<OscillatorResponse> responses) {
   if (time <= 0.0) {

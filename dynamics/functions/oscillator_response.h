@@ -19,15 +19,12 @@ struct OscillatorResponse {
   double forced_rate(int k) const { return k > 0 ? forced[static_cast<std::size_t>(k - 1)] : s; }
 };
 
-/// @param stiffness  ω² [1/s²]; negative where the motion grows
-/// @param decay  d [1/s]
+/// Those of several oscillators at the same time, which takes less than one after the other.
+/// @param stiffness  ω² of each [1/s²]; negative where the motion grows
+/// @param decay  d of each [1/s]
 /// @param time  at least 0 [s]
 /// @param max_power  highest k of the forced responses, at most kMaxPower; higher ones are set to zero
-OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time,
-                                            int max_power = OscillatorResponse::kMaxPower);
-
-/// Those of several oscillators at the same time, which takes less than one after the other.
-/// @param stiffness, decay, responses  of each oscillator
+/// @param[out] responses  one for each oscillator
 void calc_oscillator_responses(std::span<const double> stiffness, std::span<const double> decay, double time,
                                int max_power, std::span<OscillatorResponse> responses);
 

@@ -170,13 +170,15 @@ RoadSamples sample_road(const ResultsHeader& header) {
   constexpr double kSpacing = 0.01;  // m
   constexpr double kMaxSamples = 20000;
   const Road& road = *header.road.road;
-  double rearmost = 0.0;
+  double rearmost = 0.0, foremost = 0.0;
   for (const Body& body : header.model.bodies) {
-    rearmost = std::min(rearmost, header.road.distance(header.start.q[body.first_coordinate]));
+    const double place = header.road.distance(header.start.q[body.first_coordinate]);
+    rearmost = std::min(rearmost, place);
+    foremost = std::max(foremost, place);
   }
   const double travel = 1.1 * header.run.speed * header.run.duration;  // a tenth more than at constant speed
   const double from = std::floor(rearmost + std::min(travel, 0.0)) - 2.0;
-  const double to = std::ceil(std::max(travel, 0.0)) + 5.0;
+  const double to = std::ceil(foremost + std::max(travel, 0.0)) + 5.0;
   const double spacing = std::max(kSpacing, (to - from) / kMaxSamples);
   RoadSamples samples;
   std::vector<double>& distance = samples.distance;

@@ -193,8 +193,8 @@ Eigen::VectorXd find_balance(const ModalProperties& properties, Preparation prep
   return prepared.equilibrium->q;
 }
 
-// The same; where there is no balance, the error tells of wheels that are drawn under the road, or of bodies
-// that are drawn far from each other.
+// The same; where there is no balance, the error tells of wheels that are drawn under the road, of bodies
+// that nothing holds, or that are drawn far from each other.
 Eigen::VectorXd find_balance_or_explain(const ModalProperties& properties, Preparation preparation,
                                         const RunRequest& request, PreparedRun& prepared) {
   try {
@@ -203,11 +203,12 @@ Eigen::VectorXd find_balance_or_explain(const ModalProperties& properties, Prepa
     const Model model = make_balance_model(properties, prepared);
     Eigen::VectorXd q = make_start_positions(model, prepared.vehicle);
     reject_wheels_under_road(prepared.vehicle, model, q);
-    const std::string far = describe_far_element(prepared.vehicle, model, q),
-                      moved = describe_far_movement(model, assemble_positions(model, q));
-    if (far.empty() && moved.empty()) throw;
-    const char* separator = far.empty() || moved.empty() ? "" : "; ";
-    throw support::NumericalError(fmt::format("{}; {}{}{}", error.what(), far, separator, moved));
+    std::string message = error.what();
+    for (const std::string& reason :
+         {describe_unheld_bodies(model), describe_far_element(prepared.vehicle, model, q),
+          describe_far_movement(model, assemble_positions(model, q))})
+      if (!reason.empty()) message += "; " + reason;
+    throw support::NumericalError(message);
   }
 }
 

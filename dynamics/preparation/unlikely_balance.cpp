@@ -1,10 +1,12 @@
 #include "dynamics/preparation/unlikely_balance.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "dynamics/output/resting_forces.h"
 #include "dynamics/preparation/turned_springs.h"
@@ -50,10 +52,10 @@ void check_stops(const ForceDescription& force, const ForceElement& element, std
     remarks.push_back(remark_at(
         force.location,
         fmt::format(
-            "'forces.{}' is {:.3g} {} beyond the begin of its {}: its deflection is {:.4g} {}, the stop "
-            "begins at {:.4g} {} of deflection from the free length",
-            force.name, beyond, channel->unit, is_compression ? "compression stop" : "rebound stop",
-            deflection, channel->unit, std::get<double>(parameter.value), channel->unit)));
+            "'forces.{}' is on its {} stop, {:.3g} {} deep: its deflection is {:.4g} {}, and the stop begins "
+            "at {:.4g} {}, both from the free length",
+            force.name, is_compression ? "compression" : "rebound", beyond, channel->unit, deflection,
+            channel->unit, std::get<double>(parameter.value), channel->unit)));
   }
 }
 
@@ -110,6 +112,22 @@ void reject_wheels_under_road(const Vehicle& vehicle, const Model& model, const 
           "no static equilibrium: as drawn, the centre of the wheel of 'forces.{}' is {:.4g} m under the "
           "road; check the positions of the bodies",
           deepest->name, -lowest));
+}
+
+std::string describe_unheld_bodies(const Model& model) {
+  std::set<int> held;
+  for (const auto& joint : model.joints) {
+    for (const int marker : {joint->marker_a, joint->marker_b})
+      held.insert(model.markers[static_cast<std::size_t>(marker)].body);
+  }
+  for (const auto& force : model.forces) {
+    for (const int marker : force->markers())
+      held.insert(model.markers[static_cast<std::size_t>(marker)].body);
+  }
+  std::vector<std::string> names;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!held.contains(static_cast<int>(b))) names.push_back("'bodies." + model.bodies[b].name + "'");
+  return names.empty() ? "" : fmt::format("no joint or force element holds {}", fmt::join(names, ", "));
 }
 
 std::string describe_far_element(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn) {

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "fem/assembly.h"
 #include "reduce/factors/row_major.h"
-#include "reduce/modes/held_node.h"
 #include "reduce/reduction/body_basis.h"
 #include "reduce/reduction/held_rounding.h"
 #include "reduce/reduction/inertia_invariants.h"
@@ -144,11 +142,6 @@ void require_checks(const std::vector<CheckResult>& checks, const Design& design
 }
 
 }  // namespace
-
-ModalProblem make_modal_problem(const fem::BeamModel& model, int node) {
-  const fem::AssembledMatrices matrices = fem::assemble(model);
-  return {.stiffness = remove_node(matrices.stiffness, node), .mass = remove_node(matrices.mass, node)};
-}
 
 Superelement make_superelement(const Design& design, const ClampedModeOptions& options) {
   const fem::BeamModel& model = design.model;

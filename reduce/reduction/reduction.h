@@ -16,7 +16,4 @@ namespace sprung::reduce {
 /// Checked by tests/reduce/truck_test.cpp, tests/reduce/design/design_test.cpp
 Superelement make_superelement(const Design& design, const ClampedModeOptions& options = {});
 
-/// K and M of a frame held at a node. @param node  0-based
-ModalProblem make_modal_problem(const fem::BeamModel& model, int node);
-
 }  // namespace sprung::reduce

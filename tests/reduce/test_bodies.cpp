@@ -8,6 +8,8 @@
 #include <numeric>
 #include <random>
 
+#include "fem/assembly.h"
+#include "reduce/modes/held_node.h"
 #include "reduce/reduction/reduction.h"
 #include "tests/reduce/free_body_truth.h"
 
@@ -40,6 +42,11 @@ double calc_relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double 
 }
 
 }  // namespace
+
+ModalProblem make_modal_problem(const fem::BeamModel& model, int node) {
+  const fem::AssembledMatrices matrices = fem::assemble(model);
+  return {.stiffness = remove_node(matrices.stiffness, node), .mass = remove_node(matrices.mass, node)};
+}
 
 fem::BeamProperties make_section(bool shear_and_rotary_inertia) {
   const double outer = 0.06, inner = 0.054, youngs_modulus = 2.1e11, density = 7850.0;

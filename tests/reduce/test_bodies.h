@@ -7,6 +7,7 @@
 
 #include "fem/beam_model.h"
 #include "reduce/design/design.h"
+#include "reduce/modes/eigen_pairs.h"
 #include "reduce/superelement/superelement.h"
 
 namespace sprung::reduce::testing {
@@ -17,6 +18,9 @@ fem::BeamProperties make_section(bool shear_and_rotary_inertia = false);
 /// Adds a straight run of elements to a model; its ends join nodes that are there already.
 void add_line(fem::BeamModel& model, const Eigen::Vector2d& from, const Eigen::Vector2d& to, int num_elements,
               int section = 0);
+
+/// K and M of a frame held at a node. @param node  0-based
+ModalProblem make_modal_problem(const fem::BeamModel& model, int node);
 
 /// @return 0-based node at a place, or -1
 int find_node_at(const fem::BeamModel& model, const Eigen::Vector2d& position);

@@ -64,6 +64,13 @@ class Workflow(StudyCase):
             self.assertEqual(len(rows), 2)
         self.check_table()
 
+    def test_the_table_is_kept_where_no_run_has_one_of_the_measures(self):
+        measures = 'measures = ["program/steps", "program/nothing"]\nset.duration = 0.5\n'
+        self.write_study(f"{measures}{HEIGHT}values = [0.01, 0.02]")
+        self.assert_succeeds(self.study("--workflow", "2", **self.environment))
+        self.snakemake("--cores", "2")
+        self.assertTrue((self.folder / "out/table.csv").exists())
+
     def test_more_values_or_a_changed_vehicle_are_made_and_what_is_done_is_not(self):
         self.snakemake("--cores", "2")
         self.snakemake("--cores", "2")

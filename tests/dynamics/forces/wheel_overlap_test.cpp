@@ -39,9 +39,9 @@ TEST_CASE("On level ground the overlap is a segment of the circle", "[forces]") 
     // e = δ − R + √(R² − ξ²) from −half to half.
     const double area = 2.0 * (circle_integral(half) - (kRadius - penetration) * half);
     CHECK(found.area == Approx(area).epsilon(penetration > 1e-4 ? 1e-9 : 1e-5));
-    CHECK(
-        found.area ==
-        Approx(dynamics::calc_level_overlap(kRadius, penetration)).epsilon(penetration > 1e-4 ? 1e-9 : 1e-5));
+    const double alpha = std::acos(1.0 - penetration / kRadius);
+    CHECK(found.area == Approx(kRadius * kRadius * (alpha - std::sin(alpha) * std::cos(alpha)))
+                            .epsilon(penetration > 1e-4 ? 1e-9 : 1e-5));
     CHECK(found.width == Approx(2.0 * half).epsilon(1e-9));
     CHECK(found.rise == 0.0);
     CHECK(found.depth == Approx(penetration).epsilon(1e-9));

@@ -9,7 +9,6 @@
 #include "reduce/modes/eigenvalue_count.h"
 #include "reduce/modes/stiffness_factor.h"
 #include "reduce/reduction/body_basis.h"
-#include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
 #include "tests/reduce/free_body_truth.h"
 #include "tests/reduce/test_bodies.h"
@@ -25,7 +24,7 @@ std::vector<FactorMethod> list_methods() {
 // 70 columns: more than one block. Expected: dense solutions.
 TEST_CASE("factors by Eigen and by supernodes solve one and many right-hand sides") {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const ModalProblem problem = make_modal_problem(testing::make_random_frame(seed), 2);
+    const ModalProblem problem = testing::make_modal_problem(testing::make_random_frame(seed), 2);
     const Eigen::MatrixXd x = Eigen::MatrixXd::Random(problem.size(), 70);
     const SparseMatrix shifted = problem.stiffness - 1e4 * problem.mass;
     for (const FactorMethod method : list_methods()) {
@@ -45,7 +44,7 @@ TEST_CASE("factors by Eigen and by supernodes solve one and many right-hand side
 // Expected: eigenvalues of the dense matrix.
 TEST_CASE("the negative pivots are as many as the negative eigenvalues, in any order of elimination") {
   for (const std::uint64_t seed : {4, 5}) {
-    const ModalProblem problem = make_modal_problem(testing::make_random_frame(seed), 1);
+    const ModalProblem problem = testing::make_modal_problem(testing::make_random_frame(seed), 1);
     const Eigen::VectorXd omega_squared =
         Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(problem.stiffness, problem.mass)
             .eigenvalues();
@@ -91,7 +90,7 @@ TEST_CASE("supernodal factors solve chains, grids and dense matrices, definite o
 }
 
 TEST_CASE("a matrix that is singular, or not definite where it has to be, has no factors") {
-  const ModalProblem problem = make_modal_problem(testing::make_random_frame(6), 0);
+  const ModalProblem problem = testing::make_modal_problem(testing::make_random_frame(6), 0);
   const SparseMatrix indefinite = problem.stiffness - 1e6 * problem.mass;
   SparseMatrix singular(3, 3);
   singular.insert(0, 0) = 1.0;

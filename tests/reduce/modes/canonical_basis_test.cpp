@@ -97,7 +97,7 @@ TEST_CASE("the lowest modes of a body have one basis for every start vector and 
     CAPTURE(body.name);
     // Up to the first gap after twelve modes.
     const ModalProblem problem =
-        make_modal_problem(body.model, testing::find_node_at(body.model, body.reference));
+        testing::make_modal_problem(body.model, testing::find_node_at(body.model, body.reference));
     const ClampedModes lowest = calc_clamped_modes(problem, 12, {.method = EigenMethod::kDense});
     const WantedModes request{.wanted = ModeCount{static_cast<int>(lowest.cluster.size())}};
     const Superelement dense =
@@ -116,7 +116,7 @@ TEST_CASE("the lowest modes of a body have one basis for every start vector and 
 
 TEST_CASE("without the rule the solver's basis of a cluster depends on the start vector") {
   const fem::BeamModel model = testing::make_star(4, 0.37);
-  const ModalProblem problem = make_modal_problem(model, 0);
+  const ModalProblem problem = testing::make_modal_problem(model, 0);
   const ClampedModes a = calc_clamped_modes(problem, 4, {.method = EigenMethod::kSparse, .seed = 1});
   const ClampedModes b = calc_clamped_modes(problem, 4, {.method = EigenMethod::kSparse, .seed = 2});
   REQUIRE(find_cluster_of(a.cluster, 0).size() == 4);

@@ -11,7 +11,6 @@
 #include "reduce/modes/eigenvalue_count.h"
 #include "reduce/modes/rounding_error.h"
 #include "reduce/modes/sparse_eigen_solver.h"
-#include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
 #include "tests/reduce/test_bodies.h"
 #include "tools/support/errors/numerical_error.h"
@@ -28,7 +27,7 @@ ModalProblem make_cantilever(int num_elements) {
   testing::add_line(model, {0.2, 0.1},
                     Eigen::Vector2d(0.2, 0.1) + 3.0 * Eigen::Vector2d(std::cos(0.3), std::sin(0.3)),
                     num_elements);
-  return make_modal_problem(model, 0);
+  return testing::make_modal_problem(model, 0);
 }
 
 ModalProblem make_diagonal_problem(const Eigen::VectorXd& omega_squared) {
@@ -92,7 +91,7 @@ TEST_CASE("the dense solver keeps the relative accuracy of modes over eight deca
 
 TEST_CASE("every repeated mode is found, whatever the start vector") {
   for (const int num_arms : {2, 4, 6}) {
-    const ModalProblem problem = make_modal_problem(testing::make_star(num_arms, 0.3), 0);
+    const ModalProblem problem = testing::make_modal_problem(testing::make_star(num_arms, 0.3), 0);
     for (std::uint64_t seed = 1; seed <= 25; ++seed) {
       const ClampedModes modes =
           calc_clamped_modes(problem, 1, {.method = EigenMethod::kSparse, .seed = seed});
@@ -105,7 +104,7 @@ TEST_CASE("every repeated mode is found, whatever the start vector") {
 }
 
 TEST_CASE("the count shows a basis from which a member of a pair was left out") {
-  const ModalProblem problem = make_modal_problem(testing::make_star(2, 0.0, 8), 0);
+  const ModalProblem problem = testing::make_modal_problem(testing::make_star(2, 0.0, 8), 0);
   const EigenPairs all = solve_dense(problem.stiffness, problem.mass);
   const double shift = 0.5 * (all.omega_squared(3) + all.omega_squared(4));
   Eigen::VectorXd incomplete(5);  // what an iteration returns that missed mode 2
@@ -115,7 +114,7 @@ TEST_CASE("the count shows a basis from which a member of a pair was left out") 
 }
 
 TEST_CASE("solutions that lack a member of a pair are not proved, wherever it is missing") {
-  const ModalProblem problem = make_modal_problem(testing::make_star(2, 0.0, 8), 0);
+  const ModalProblem problem = testing::make_modal_problem(testing::make_star(2, 0.0, 8), 0);
   const EigenPairs all = solve_dense(problem.stiffness, problem.mass);
   const auto prove_without = [&](int missing, int num_modes) {
     std::vector<int> left;
@@ -141,7 +140,7 @@ TEST_CASE("solutions that lack a member of a pair are not proved, wherever it is
 }
 
 TEST_CASE("the count agrees with the solver between all modes of a frame") {
-  const ModalProblem problem = make_modal_problem(testing::make_spoked_square(0.21), 0);
+  const ModalProblem problem = testing::make_modal_problem(testing::make_spoked_square(0.21), 0);
   const EigenPairs all = solve_dense(problem.stiffness, problem.mass);
   const Eigen::VectorXi cluster = find_clusters(all.omega_squared);
   CHECK(count_modes_below(problem, 0.5 * all.omega_squared(0)) == 0);

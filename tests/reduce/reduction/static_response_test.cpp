@@ -160,7 +160,7 @@ TEST_CASE("a frame with too many elements for its responses has none, and no oth
   testing::add_line(model, {0.0, 0.0}, {1.0, 0.0}, 4);
   const Eigen::Index m = 1 + kMostResponseValues / (6 * 4 * 2);  // as many modes: shapes of zeros do
   const fem::AssembledMatrices matrices = fem::assemble(model);
-  CHECK_FALSE(calc_static_response(model, 0, StiffnessFactor(make_modal_problem(model, 0).stiffness),
+  CHECK_FALSE(calc_static_response(model, 0, StiffnessFactor(testing::make_modal_problem(model, 0).stiffness),
                                    matrices.mass, fem::calc_mass_moments(model, Eigen::Vector2d::Zero()),
                                    Eigen::MatrixXd::Zero(15, m)));
 }

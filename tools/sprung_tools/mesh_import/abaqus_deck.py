@@ -17,7 +17,7 @@ from sprung_tools.mesh_import.abaqus_assembly import Assembly
 from sprung_tools.mesh_import.abaqus_blocks import Block, read_blocks
 from sprung_tools.mesh_import.abaqus_part import GENERATING, MESHING, Element, Part, is_line_kind
 from sprung_tools.mesh_import.frame_properties import Material, PointMass
-from sprung_tools.mesh_import.line_mesh import LineMesh, pick_members, shorten, describe_split
+from sprung_tools.mesh_import.line_mesh import LineMesh, describe_split, pick_members, shorten
 
 KINDS = {  # how a beam of that type deforms in Abaqus
     "B21": "shear-flexible", "B31": "shear-flexible", "PIPE21": "shear-flexible", "PIPE31": "shear-flexible",

@@ -7,7 +7,7 @@ from typing import NamedTuple, NoReturn
 import numpy as np
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.mesh_import.line_mesh import LineMesh, order_along, pick_members, describe_split
+from sprung_tools.mesh_import.line_mesh import LineMesh, describe_split, order_along, pick_members
 from sprung_tools.mesh_import.number_text import parse_real
 
 DIMENSIONS = {"COOR_1D": 1, "COOR_2D": 2, "COOR_3D": 3}

@@ -8,7 +8,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Integers
 from sprung_tools.files.errors import InputError
-from sprung_tools.mesh_import.line_mesh import LineMesh, order_along, shorten, describe_split
+from sprung_tools.mesh_import.line_mesh import LineMesh, describe_split, order_along, shorten
 from sprung_tools.mesh_import.meshio_process import run_meshio
 
 # These cell data number the source's own entities or families; the names of these are read elsewhere.

@@ -46,6 +46,13 @@ Eigen::MatrixXd random_positive(Eigen::Index n, std::mt19937& random) {
   return X * X.transpose() / static_cast<double>(n) + 0.1 * Eigen::MatrixXd::Identity(n, n);
 }
 
+OscillatorResponse calc_response(double stiffness, double decay, double time) {
+  OscillatorResponse response;
+  dynamics::calc_oscillator_responses({&stiffness, 1}, {&decay, 1}, time, OscillatorResponse::kMaxPower,
+                                      {&response, 1});
+  return response;
+}
+
 }  // namespace
 
 TEST_CASE("An estimated error vibrates on without growth, with what a constant error of the drive adds",
@@ -96,10 +103,9 @@ TEST_CASE("An oscillator's response composes: two spans of time are one", "[anal
       for (const double second : {1e-4, 2e-2, 1.1}) {
         INFO("stiffness " << c.stiffness << ", decay " << c.decay << ", times " << first << " and "
                           << second);
-        const OscillatorResponse a = dynamics::calc_oscillator_response(c.stiffness, c.decay, first);
-        const OscillatorResponse b = dynamics::calc_oscillator_response(c.stiffness, c.decay, second);
-        const OscillatorResponse whole =
-            dynamics::calc_oscillator_response(c.stiffness, c.decay, first + second);
+        const OscillatorResponse a = calc_response(c.stiffness, c.decay, first);
+        const OscillatorResponse b = calc_response(c.stiffness, c.decay, second);
+        const OscillatorResponse whole = calc_response(c.stiffness, c.decay, first + second);
         const double size = std::abs(whole.c) + std::abs(whole.s_rate) + 1e-3;
         CHECK(b.c * a.c + b.s * a.c_rate == Approx(whole.c).margin(1e-11 * size));
         CHECK(b.c * a.s + b.s * a.s_rate == Approx(whole.s).epsilon(1e-10).margin(1e-14));
@@ -120,9 +126,9 @@ TEST_CASE("An oscillator's response composes: two spans of time are one", "[anal
 
 TEST_CASE("An oscillator's response under a constant force is the closed form", "[analysis]") {
   // x = (1 − cos ωt)/ω² from rest; with damping and no stiffness x = (t − (1 − e^(−2dt))/2d)/2d
-  const OscillatorResponse free = dynamics::calc_oscillator_response(25.0, 0.0, 0.7);
+  const OscillatorResponse free = calc_response(25.0, 0.0, 0.7);
   CHECK(free.forced[0] == Approx((1.0 - std::cos(3.5)) / 25.0).epsilon(1e-13));
-  const OscillatorResponse damper = dynamics::calc_oscillator_response(0.0, 40.0, 0.7);
+  const OscillatorResponse damper = calc_response(0.0, 40.0, 0.7);
   CHECK(damper.forced[0] == Approx((0.7 - (1.0 - std::exp(-56.0)) / 80.0) / 80.0).epsilon(1e-13));
 }
 
