@@ -170,6 +170,12 @@ class Refusing(ToolTestCase):
             self.changed(spoil), "dataset 'bodies/chassis/position' holds values that are not finite"
         )
 
+    def test_values_whose_squares_are_not_finite(self):
+        def spoil(file):
+            file["bodies/chassis/position"][7, 1] = -1e300
+
+        self.assert_error(self.changed(spoil), "dataset 'bodies/chassis/position' holds values as large as 1e+300")
+
     def test_a_dataset_of_the_wrong_length(self):
         def shorten(file):
             del file["bodies/chassis/position"]

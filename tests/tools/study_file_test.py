@@ -13,7 +13,8 @@ from tool_test_case import ROOT, TOOLS, ToolTestCase
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_text import cut_key
 from sprung_tools.study.sampling import is_balanced, make_points
-from sprung_tools.study.study_file import PARAMETER_KEYS, ROAD_KEYS, ROOT_KEYS, SAMPLING_KEYS, read_study
+from sprung_tools.study.description import PARAMETER_KEYS, ROAD_KEYS, ROOT_KEYS, SAMPLING_KEYS
+from sprung_tools.study.study_file import read_study
 
 HEAD = 'run = "run.toml"\nmeasures = ["summary/steps"]\n'
 SPEED = '[[parameters]]\nkey = "speed"\nvalues = [1.0, 2.0, 5.0]\n'

@@ -20,11 +20,12 @@ from sprung_tools.files.whole_file import write_whole
 from sprung_tools.programs.calls import CHECK_FAILED
 from sprung_tools.programs.finding import find_programs
 from sprung_tools.programs.process_pool import count_processors
+from sprung_tools.study.description import Study
 from sprung_tools.study.effects import LEAST_SEEN, Effect, calc_effects
 from sprung_tools.study.execution import Finished, Options, find_missing, run_study
 from sprung_tools.study.page import make_study_page
 from sprung_tools.study.sampling import is_balanced, make_points
-from sprung_tools.study.study_file import Study, read_study
+from sprung_tools.study.study_file import read_study
 from sprung_tools.study.table import format_csv, make_hdf5, make_measure_columns
 from sprung_tools.study.workflow import PARTS, SNAKEFILE, format_snakefile, parse_part
 from sprung_tools.terminal.program import make_parser

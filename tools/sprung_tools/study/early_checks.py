@@ -12,12 +12,12 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_text import cut_key, split_key, strip_quotes
 from sprung_tools.programs.calls import BAD_INPUT, Outcome, call, make_command
 from sprung_tools.programs.finding import Programs
+from sprung_tools.study.description import DESIGN, Study, fail_at_key, flatten_settings
 from sprung_tools.study.designs import reduce_variant
 from sprung_tools.study.kept_rows import Row
 from sprung_tools.study.measure_names import SLIP
 from sprung_tools.study.one_run import Setting, Task
 from sprung_tools.study.plan import Draft
-from sprung_tools.study.study_file import DESIGN, Study, fail_at_key, flatten_settings
 
 MOST_TRIED = 8
 UNKNOWN = "unknown key"

@@ -13,12 +13,12 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.programs.calls import INTERRUPTED
 from sprung_tools.programs.finding import Programs
 from sprung_tools.programs.process_pool import open_pool
+from sprung_tools.study.description import Study
 from sprung_tools.study.early_checks import check_designs, check_first, check_measures
 from sprung_tools.study.kept_rows import KeptRows, Row
 from sprung_tools.study.one_run import Setting, Task, make_and_keep
 from sprung_tools.study.plan import Planner, reduce_variants
 from sprung_tools.study.sampling import Point, make_points
-from sprung_tools.study.study_file import Study
 from sprung_tools.study.workflow import Part, collect_rows
 from sprung_tools.terminal.progress_bar import Progress
 

@@ -14,11 +14,11 @@ from sprung_tools.files.toml_file import TomlFile
 from sprung_tools.files.toml_text import cut_key, split_key, strip_quotes
 from sprung_tools.programs.calls import format_overrides
 from sprung_tools.programs.finding import Programs
+from sprung_tools.study.description import DESIGN, RANDOM_ROAD, Study, flatten_settings
 from sprung_tools.study.designs import Variant, hash_parts, make_variant, reduce_variant
 from sprung_tools.study.one_run import Task
 from sprung_tools.study.random_roads import write_road
 from sprung_tools.study.sampling import Point
-from sprung_tools.study.study_file import DESIGN, RANDOM_ROAD, Study, flatten_settings
 
 ROW_VERSION = 3  # counts up when the same input gives other rows
 

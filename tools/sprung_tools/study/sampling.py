@@ -12,7 +12,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.study.study_file import GRID, LIST, MOST_RUNS, SOBOL, Parameter, Sampling, Study, place_between
+from sprung_tools.study.description import GRID, LIST, MOST_RUNS, SOBOL, Parameter, Sampling, Study
+from sprung_tools.study.study_file import place_between
 
 Point = tuple[Any, ...]  # a value for each parameter
 

@@ -3,76 +3,30 @@
 
 import math
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import Place, TomlFile
-from sprung_tools.files.toml_text import cut_key, format_key, split_key, strip_quotes
 from sprung_tools.runs.measures import HISTORIES, OF_HISTORIES
-
-GRID, LIST, LATIN, SOBOL = "grid", "list", "latin-hypercube", "sobol"
-METHODS = (GRID, LIST, LATIN, SOBOL)
-COMMANDS = ("run", "response", "modes", "equilibrium")
-LINEAR, LOGARITHMIC = "linear", "logarithmic"
-DESIGN, RANDOM_ROAD = "design", "random_road"  # first parts of the keys of designs and of the random road
-ROAD = "road"  # the table that a random road replaces
-ROOT_KEYS = ("run", "command", "superelements", "designs", "set", "measures", "sampling", "random_road", "parameters")
-SAMPLING_KEYS = ("method", "number", "seed")
-PARAMETER_KEYS = ("name", "key", "keys", "values", "from", "to", "number", "spacing", "crossed")
-ROAD_KEYS = ("class", "rms", "density", "band", "exponent", "length", "spacing", "ease", "start", "seed")
-COLUMNS_BEFORE = ("run",)  # columns of the table beside parameters and measures
-COLUMNS_BEHIND = ("exit_code", "converged", "warnings", "error", "set", "hash")
-MOST_RUNS = 1_000_000
-
-
-class Parameter(NamedTuple):
-    """A parameter of a study. Either it has values, or it lies from low to high."""
-
-    name: str
-    keys: tuple[str, ...]
-    values: tuple[Any, ...]
-    low: float
-    high: float
-    spacing: str
-    crossed: bool
-    place: Place
-
-    def settings(self, value: Any) -> dict[str, Any]:
-        """What a value gives to the parameter's keys: a list with one for each of several keys, else the same to
-        all."""
-        if len(self.keys) > 1 and isinstance(value, list):
-            return dict(zip(self.keys, value, strict=True))
-        return {key: value for key in self.keys}
-
-
-class Sampling(NamedTuple):
-    """How the points of a study are chosen. number, seed: of random points."""
-
-    method: str
-    number: int
-    seed: int
-
-
-class Study(NamedTuple):
-    """A study file. Paths are absolute."""
-
-    file: TomlFile
-    run: Path
-    command: str
-    superelements: Path | None
-    designs: dict[str, Path]  # name → design file
-    overrides: dict[str, Any]  # for all runs
-    measures: dict[str, str]  # name → label, which is the name itself where none is given
-    sampling: Sampling
-    random_road: dict[str, Any]
-    parameters: tuple[Parameter, ...]
-
-    @property
-    def has_one_vehicle(self) -> bool:
-        """Whether all runs are of one vehicle file."""
-        return all("vehicle" not in parameter.keys for parameter in self.parameters)
+from sprung_tools.study.description import (
+    COMMANDS,
+    GRID,
+    LINEAR,
+    LIST,
+    LOGARITHMIC,
+    METHODS,
+    MOST_RUNS,
+    PARAMETER_KEYS,
+    ROAD_KEYS,
+    ROOT_KEYS,
+    SAMPLING_KEYS,
+    Parameter,
+    Sampling,
+    Study,
+)
+from sprung_tools.study.study_checks import check_study
 
 
 class Reader:
@@ -175,11 +129,7 @@ def read_study(path: str | Path) -> Study:
     overrides = root.take("set", lambda one: isinstance(one, dict), "a table of keys and values", {})
     study = Study(file, run, root.choice("command", COMMANDS, "run"), superelements, designs, overrides, measures,
                   sampling, road, parameters)  # fmt: skip
-    check_names(study)
-    check_keys(study)
-    check_overlaps(study)
-    if road:
-        check_road(study)
+    check_study(study)
     return study
 
 
@@ -306,85 +256,3 @@ def place_between(low: float, high: float, spacing: str, share: float) -> float:
     if spacing == LOGARITHMIC:
         return low * math.exp(share * math.log(high / low))
     return low + share * (high - low)
-
-
-def check_road(study: Study) -> None:
-    """Throws InputError where neither the table of the random road, nor a parameter, nor 'set' has what it needs."""
-    given = {cut_key(key, RANDOM_ROAD) for one in study.parameters for key in one.keys}
-    given |= {cut_key(key, RANDOM_ROAD) for key in study.overrides}
-    given |= set(study.random_road) | set(study.overrides.get(RANDOM_ROAD, {}))
-    for key in ("length", "spacing"):
-        if key not in given:
-            raise study.file.fail(("random_road",), f"'{key}' is missing in 'random_road', expected a number in m")
-    levels = [key for key in ("class", "rms", "density") if key in given]
-    if len(levels) != 1:
-        found = " and ".join(levels) or "none"
-        raise study.file.fail(("random_road",), f"'random_road' needs one of 'class', 'rms', 'density', got {found}")
-
-
-def check_names(study: Study) -> None:
-    """Throws InputError for a name that two columns of the table would have."""
-    taken = {*COLUMNS_BEFORE, *COLUMNS_BEHIND}
-    for parameter in study.parameters:
-        if parameter.name in taken:
-            raise fail_at_key(study, parameter.keys[0], f"'{parameter.name}' is a column of the table; give a 'name'")
-        taken.add(parameter.name)
-    for name, label in study.measures.items():
-        if label in taken:
-            what = f"'{label}' is a parameter or another column of the table, expected another label"
-            raise study.file.fail(("measures",), what, fragment=f"{label}={name}")
-
-
-def fail_at_key(study: Study, key: str, what: str) -> InputError:
-    """The error of a key that a parameter has, else that is set for all runs."""
-    for parameter in study.parameters:
-        if key in parameter.keys:
-            name = "key" if len(parameter.keys) == 1 else "keys"
-            return study.file.fail((*parameter.place, name), what, fragment=key)
-    return study.file.fail(("set", *key.split(".")), what)
-
-
-def flatten_settings(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Tables in tables as keys with dots: {"road": {"height": 0.1}} → {"road.height": 0.1}."""
-    flat: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, dict):
-            flat |= flatten_settings(value, f"{prefix}{key}.")
-        else:
-            flat[f"{prefix}{key}"] = value
-    return flat
-
-
-def check_overlaps(study: Study) -> None:
-    """Throws InputError for a key inside the table that another one sets: one of them would have no effect."""
-    keys = [*(key for one in study.parameters for key in one.keys), *flatten_settings(study.overrides)]
-    parts = {key: tuple(map(strip_quotes, split_key(key))) for key in keys}
-    for key, own in parts.items():
-        if study.random_road and own[:1] == (ROAD,):
-            raise fail_at_key(study, key, f"'{key}' has no effect: [random_road] makes the road")
-        for other, whole in parts.items():
-            if len(whole) < len(own) and own[: len(whole)] == whole:
-                raise fail_at_key(study, key, f"'{key}' lies in '{other}', which is set as a whole, too")
-
-
-def check_keys(study: Study) -> None:
-    """Throws InputError for what is no key, and for keys of designs and of the random road that lead nowhere."""
-    for parameter in study.parameters:
-        at = (*parameter.place, "key")
-        if at not in study.file.places():
-            at = (*parameter.place, "keys")
-        for key in parameter.keys:
-            parts = split_key(key)
-            if not parts:
-                what = f"'{key}' is no key: names with dots between, in quotes where they hold a dot"
-                raise study.file.fail(at, what, fragment=key)
-            if parts[0] == DESIGN:
-                if not any(cut_key(key, DESIGN, name) for name in study.designs):
-                    there = ", ".join(map(format_key, study.designs)) or "none"
-                    raise study.file.fail(at, f"'{key}' is no key of a design (designs: {there})", fragment=key)
-            elif parts[0] == RANDOM_ROAD and len(parts) > 1:
-                if cut_key(key, RANDOM_ROAD) not in ROAD_KEYS:
-                    raise study.file.fail(at, f"'{key}' is unknown (keys of the random road: {', '.join(ROAD_KEYS)})",
-                                          fragment=key)  # fmt: skip
-                if not study.random_road:
-                    raise study.file.fail(at, f"'{key}' needs a table [random_road]", fragment=key)

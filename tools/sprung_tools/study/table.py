@@ -11,8 +11,8 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.toml_text import format_value
+from sprung_tools.study.description import COLUMNS_BEFORE, COLUMNS_BEHIND
 from sprung_tools.study.execution import Finished
-from sprung_tools.study.study_file import COLUMNS_BEFORE, COLUMNS_BEHIND
 
 FORMAT, VERSION = "sprung-study", 1
 

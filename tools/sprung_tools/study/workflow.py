@@ -13,10 +13,10 @@ from typing import NamedTuple, TypeVar
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import TomlFile
 from sprung_tools.programs.finding import Programs
+from sprung_tools.study.description import Study
 from sprung_tools.study.designs import hash_parts
 from sprung_tools.study.kept_rows import ROWS, KeptRows, keep_row, parse_row
 from sprung_tools.study.plan import calc_hash, list_texts
-from sprung_tools.study.study_file import Study
 
 PARTS, SNAKEFILE = "parts", "Snakefile"
 Item = TypeVar("Item")

@@ -1,0 +1,90 @@
+"""A study as its file describes it."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.toml_file import Place, TomlFile
+
+GRID, LIST, LATIN, SOBOL = "grid", "list", "latin-hypercube", "sobol"
+METHODS = (GRID, LIST, LATIN, SOBOL)
+COMMANDS = ("run", "response", "modes", "equilibrium")
+LINEAR, LOGARITHMIC = "linear", "logarithmic"
+DESIGN, RANDOM_ROAD = "design", "random_road"  # first parts of the keys of designs and of the random road
+ROAD = "road"  # the table that a random road replaces
+ROOT_KEYS = ("run", "command", "superelements", "designs", "set", "measures", "sampling", "random_road", "parameters")
+SAMPLING_KEYS = ("method", "number", "seed")
+PARAMETER_KEYS = ("name", "key", "keys", "values", "from", "to", "number", "spacing", "crossed")
+ROAD_KEYS = ("class", "rms", "density", "band", "exponent", "length", "spacing", "ease", "start", "seed")
+COLUMNS_BEFORE = ("run",)  # columns of the table beside parameters and measures
+COLUMNS_BEHIND = ("exit_code", "converged", "warnings", "error", "set", "hash")
+MOST_RUNS = 1_000_000
+
+
+class Parameter(NamedTuple):
+    """A parameter of a study. Either it has values, or it lies from low to high."""
+
+    name: str
+    keys: tuple[str, ...]
+    values: tuple[Any, ...]
+    low: float
+    high: float
+    spacing: str
+    crossed: bool
+    place: Place
+
+    def settings(self, value: Any) -> dict[str, Any]:
+        """What a value gives to the parameter's keys: a list with one for each of several keys, else the same to
+        all."""
+        if len(self.keys) > 1 and isinstance(value, list):
+            return dict(zip(self.keys, value, strict=True))
+        return {key: value for key in self.keys}
+
+
+class Sampling(NamedTuple):
+    """How the points of a study are chosen. number, seed: of random points."""
+
+    method: str
+    number: int
+    seed: int
+
+
+class Study(NamedTuple):
+    """A study file. Paths are absolute."""
+
+    file: TomlFile
+    run: Path
+    command: str
+    superelements: Path | None
+    designs: dict[str, Path]  # name → design file
+    overrides: dict[str, Any]  # for all runs
+    measures: dict[str, str]  # name → label, which is the name itself where none is given
+    sampling: Sampling
+    random_road: dict[str, Any]
+    parameters: tuple[Parameter, ...]
+
+    @property
+    def has_one_vehicle(self) -> bool:
+        """Whether all runs are of one vehicle file."""
+        return all("vehicle" not in parameter.keys for parameter in self.parameters)
+
+
+def fail_at_key(study: Study, key: str, what: str) -> InputError:
+    """The error of a key that a parameter has, else that is set for all runs."""
+    for parameter in study.parameters:
+        if key in parameter.keys:
+            name = "key" if len(parameter.keys) == 1 else "keys"
+            return study.file.fail((*parameter.place, name), what, fragment=key)
+    return study.file.fail(("set", *key.split(".")), what)
+
+
+def flatten_settings(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Tables in tables as keys with dots: {"road": {"height": 0.1}} → {"road.height": 0.1}."""
+    flat: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, dict):
+            flat |= flatten_settings(value, f"{prefix}{key}.")
+        else:
+            flat[f"{prefix}{key}"] = value
+    return flat
