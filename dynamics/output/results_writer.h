@@ -85,7 +85,7 @@ class ResultsWriter {
               const std::vector<RunWarning>& warnings);
   /// Closes the file under its partial name, with the last checkpoint. @return that name
   std::filesystem::path abandon();
-  /// Before the destructor: it removes the file, and one of the partial name stays as it is.
+  /// Has the destructor remove the file, and leave one of the partial name as it is.
   void discard();
   const std::filesystem::path& partial() const { return file_.partial(); }
   const StoragePlan& storage() const { return *storage_; }

@@ -194,7 +194,7 @@ Eigen::VectorXd find_balance(const ModalProperties& properties, Preparation prep
 }
 
 // The same; where there is no balance, the error tells of wheels that are drawn under the road, of bodies
-// that nothing holds, or that are drawn far from each other.
+// on which nothing acts, or that are drawn far from each other.
 Eigen::VectorXd find_balance_or_explain(const ModalProperties& properties, Preparation preparation,
                                         const RunRequest& request, PreparedRun& prepared) {
   try {
@@ -205,7 +205,7 @@ Eigen::VectorXd find_balance_or_explain(const ModalProperties& properties, Prepa
     reject_wheels_under_road(prepared.vehicle, model, q);
     std::string message = error.what();
     for (const std::string& reason :
-         {describe_unheld_bodies(model), describe_far_element(prepared.vehicle, model, q),
+         {describe_idle_bodies(model), describe_far_element(prepared.vehicle, model, q),
           describe_far_movement(model, assemble_positions(model, q))})
       if (!reason.empty()) message += "; " + reason;
     throw support::NumericalError(message);

@@ -67,14 +67,12 @@ std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Mod
   const RestingForces at_rest(model, found);
   for (std::size_t f = 0; f < vehicle.forces.size(); ++f)
     check_stops(vehicle.forces[f], *model.forces[f], at_rest.calc_channels(f), remarks);
-  SystemTerms terms(model);
-  terms.update_positions(0.0, found);
   bool has_tyres = false;
   for (std::size_t f = 0; f < vehicle.forces.size(); ++f) {
     if (!vehicle.forces[f].on_road) continue;
     has_tyres = true;
     const auto center = static_cast<std::size_t>(model.forces[f]->markers().front());
-    check_tyre(vehicle.forces[f], terms.markers()[center].r.y(), remarks);
+    check_tyre(vehicle.forces[f], at_rest.terms().markers()[center].r.y(), remarks);
   }
   for (std::size_t b = 0; b < model.bodies.size() && has_tyres; ++b) {
     const Eigen::Index angle = model.bodies[b].first_coordinate + 2;
@@ -114,20 +112,20 @@ void reject_wheels_under_road(const Vehicle& vehicle, const Model& model, const 
           deepest->name, -lowest));
 }
 
-std::string describe_unheld_bodies(const Model& model) {
-  std::set<int> held;
+std::string describe_idle_bodies(const Model& model) {
+  std::set<int> acted_on;
   for (const auto& joint : model.joints) {
     for (const int marker : {joint->marker_a, joint->marker_b})
-      held.insert(model.markers[static_cast<std::size_t>(marker)].body);
+      acted_on.insert(model.markers[static_cast<std::size_t>(marker)].body);
   }
   for (const auto& force : model.forces) {
     for (const int marker : force->markers())
-      held.insert(model.markers[static_cast<std::size_t>(marker)].body);
+      acted_on.insert(model.markers[static_cast<std::size_t>(marker)].body);
   }
   std::vector<std::string> names;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!held.contains(static_cast<int>(b))) names.push_back("'bodies." + model.bodies[b].name + "'");
-  return names.empty() ? "" : fmt::format("no joint or force element holds {}", fmt::join(names, ", "));
+    if (!acted_on.contains(static_cast<int>(b))) names.push_back("'bodies." + model.bodies[b].name + "'");
+  return names.empty() ? "" : fmt::format("no joint or force element acts on {}", fmt::join(names, ", "));
 }
 
 std::string describe_far_element(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn) {

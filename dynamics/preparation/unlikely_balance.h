@@ -19,7 +19,7 @@ std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Mod
                                                const Eigen::VectorXd& drawn, const Eigen::VectorXd& found);
 
 /// Names the bodies on which no joint and no force element acts; "" if there are none.
-std::string describe_unheld_bodies(const Model& model);
+std::string describe_idle_bodies(const Model& model);
 
 /// Names the force element that is drawn far longer than the vehicle's bodies are large; "" if there is none.
 std::string describe_far_element(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn);

@@ -149,8 +149,11 @@ Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd&
   for (const Body& body : model.bodies) {
     const Eigen::Index first = body.first_coordinate + 3, n = body.num_modes();
     if (n == 0) continue;
-    const Eigen::MatrixXd K = of_sizes ? Eigen::MatrixXd(body.stiffness.cwiseAbs()) : body.stiffness;
-    product.middleRows(first, n) = K * x.middleRows(first, n);
+    if (of_sizes) {
+      product.middleRows(first, n) = body.stiffness.cwiseAbs() * x.middleRows(first, n);
+    } else {
+      product.middleRows(first, n) = body.stiffness * x.middleRows(first, n);
+    }
   }
   return product;
 }

@@ -25,13 +25,13 @@ class WheelsUnderTheRoad(DynamicsTestCase):
         self.assertNotIn("gravity", process.stderr)
 
 
-class BodiesThatNothingHolds(DynamicsTestCase):
+class BodiesOnWhichNothingActs(DynamicsTestCase):
     def test_they_are_named_where_there_is_no_equilibrium(self):
         self.edit("vehicle.toml", "[bodies.chassis]", "[bodies.crate]\nmass = 50.0\ninertia = 2.0\n"
                   "position = [0.0, 2.0]\n\n[bodies.chassis]")  # fmt: skip
         process = self.run_program(verb="equilibrium")
         self.assertEqual(process.returncode, 3, process.stderr)
-        self.assertIn("no joint or force element holds 'bodies.crate'", process.stderr)
+        self.assertIn("no joint or force element acts on 'bodies.crate'", process.stderr)
 
 
 class SuspensionsOnStops(DynamicsTestCase):

@@ -109,7 +109,7 @@ class Hdf5Writer {
   /// left as the temporary one, and the error says so.
   void commit();
   void keep_partial();  ///< closes the file and leaves it under the partial name (an interrupted run)
-  /// Before the destructor: it removes the file, and one of the partial name stays as it is.
+  /// Has the destructor remove the file, and leave one of the partial name as it is.
   void discard() { is_as_flushed_ = false; }
   const std::filesystem::path& temporary() const { return temporary_.path(); }
   const std::filesystem::path& partial() const { return partial_; }
