@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 
 #include "tools/support/hdf5/fletcher32.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr int kFastest = 1;  // level of deflate: higher ones gain some hundredths in histories
 constexpr std::size_t kSize = sizeof(float);
+static_assert(std::endian::native == std::endian::little, "the first byte of a number is its lowest");
 constexpr std::size_t kLargestStored = 65535;  // bytes of one stored block (RFC 1951, 3.2.4)
 
 // Whether compressing would gain nothing: two bytes of the first thousand are equal about as rarely as two
@@ -51,11 +53,7 @@ void ChunkCompressor::Free::operator()(libdeflate_compressor* compressor) const 
 }
 
 std::vector<std::uint8_t> ChunkCompressor::append_checksum(std::span<const float> values) {
-  static_assert(sizeof(double) == 2 * kSize);
-  // The rule of the checksum is that of bytes, so two numbers may be read as one of twice the size.
-  std::vector<double> pairs(values.size() / 2);
-  std::memcpy(pairs.data(), values.data(), values.size_bytes());
-  const std::uint32_t checksum = calc_fletcher32(pairs);
+  const std::uint32_t checksum = calc_fletcher32(std::as_bytes(values));
   std::vector<std::uint8_t> chunk(values.size_bytes() + sizeof checksum);
   std::memcpy(chunk.data(), values.data(), values.size_bytes());
   std::memcpy(chunk.data() + values.size_bytes(), &checksum, sizeof checksum);
@@ -66,9 +64,15 @@ std::vector<std::uint8_t> ChunkCompressor::compress(std::span<const std::uint8_t
   if (!compressor_) compressor_.reset(libdeflate_alloc_compressor(kFastest));
   if (!compressor_) throw hdf5::Failure("there is no memory to compress it");
   const std::size_t count = chunk.size() / kSize;
-  shuffled_.resize(chunk.size());
-  for (std::size_t byte = 0; byte < kSize; ++byte) {
-    for (std::size_t i = 0; i < count; ++i) shuffled_[byte * count + i] = chunk[i * kSize + byte];
+  words_.resize(count);
+  std::memcpy(words_.data(), chunk.data(), count * kSize);
+  shuffled_.resize(count * kSize);
+  std::array<std::uint8_t*, kSize> parts{};
+  for (std::size_t byte = 0; byte < kSize; ++byte) parts[byte] = shuffled_.data() + byte * count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t word = words_[i];
+    for (std::size_t byte = 0; byte < kSize; ++byte)
+      parts[byte][i] = static_cast<std::uint8_t>(word >> (8 * byte));
   }
   const std::span<const std::uint8_t> all(shuffled_);
   std::size_t num_stored = 0;

@@ -30,6 +30,7 @@ class ChunkCompressor {
     void operator()(libdeflate_compressor* compressor) const;
   };
   std::unique_ptr<libdeflate_compressor, Free> compressor_;  // made with the first chunk
+  std::vector<std::uint32_t> words_;                         // the numbers of a chunk, and its checksum
   std::vector<std::uint8_t> shuffled_;  // four parts: first bytes of all numbers, second ones and so on
 };
 

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstddef>
+#include <cassert>
+#include <cstring>
 
 namespace sprung::support {
 
 namespace {
 
-constexpr std::size_t kWords =
-    sizeof(double) / sizeof(std::uint16_t);  // of a value, each with sums of its own
-constexpr std::size_t kMostRows = 256;       // of values, whose sums fit in 32 bits
+constexpr std::size_t kRowSize = sizeof(std::uint64_t);           // bytes that are read at a time
+constexpr std::size_t kWords = kRowSize / sizeof(std::uint16_t);  // of a row, each with sums of its own
+constexpr std::size_t kMostRows = 256;                            // whose sums fit in 32 bits
 constexpr std::uint64_t kHalf = 0xffff'ffff;
 constexpr std::uint64_t kEven = 0x0000'ffff'0000'ffff;  // words 0 and 2, each with room for its sums
 
@@ -22,14 +23,16 @@ std::uint32_t reduce(std::uint64_t x) {
 
 }  // namespace
 
-std::uint32_t calc_fletcher32(std::span<const double> values) {
+std::uint32_t calc_fletcher32(std::span<const std::byte> bytes) {
+  assert(bytes.size() % kRowSize == 0);
   std::uint64_t sum = 0, weighted = 0;  // reduced
-  while (!values.empty()) {
-    const std::size_t rows = std::min(values.size(), kMostRows);
-    // Σ_i w and Σ_i (rows − i) w over the rows, for the words of a value two by two.
+  while (!bytes.empty()) {
+    const std::size_t rows = std::min(bytes.size() / kRowSize, kMostRows);
+    // Σ_i w and Σ_i (rows − i) w over the rows, for the words of a row two by two.
     std::uint64_t even = 0, even_twice = 0, odd = 0, odd_twice = 0;
-    for (const double value : values.first(rows)) {
-      const auto words = std::bit_cast<std::uint64_t>(value);
+    for (std::size_t i = 0; i < rows; ++i) {
+      std::uint64_t words = 0;
+      std::memcpy(&words, bytes.data() + i * kRowSize, kRowSize);
       even += words & kEven;
       even_twice += even;
       odd += (words >> 16U) & kEven;
@@ -45,7 +48,7 @@ std::uint32_t calc_fletcher32(std::span<const double> values) {
     }
     sum = reduce(sum);
     weighted = reduce(weighted);
-    values = values.subspan(rows);
+    bytes = bytes.subspan(rows * kRowSize);
   }
   // The words above are little-endian; exchanging the bytes of one multiplies it by 256 in this arithmetic.
   static_assert(std::endian::native == std::endian::little);

@@ -144,7 +144,7 @@ void Hdf5GrowingDataset::write_replacements() {
 void Hdf5GrowingDataset::write_chunk() {
   static_assert(std::endian::native == std::endian::little, "chunks are written as they are in memory");
   const std::size_t size = chunk_rows_ * row_size_;
-  const std::uint32_t checksum = calc_fletcher32(std::span(chunk_).first(size));
+  const std::uint32_t checksum = calc_fletcher32(std::as_bytes(std::span(chunk_).first(size)));
   std::memcpy(chunk_.data() + size, &checksum, sizeof checksum);
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(chunk_.data()),
                         size * sizeof(double) + sizeof checksum);
