@@ -75,9 +75,19 @@ void require_moderate_stiffness(const Model& model, const LinearisedSystem& syst
   }
 }
 
+// A direction that a force pushes along and no stiffness holds, in words; empty if there is none.
+std::string describe_falling(const Model& model, const LinearisedSystem& system, const ModalForce& modal) {
+  for (Eigen::Index k = 0; k < modal.force.size(); ++k) {
+    if (modal.modes.is_free(k) && !modal.is_neutral[static_cast<std::size_t>(k)])
+      return describe(model, system.directions * modal.modes.vectors.col(k)).description;
+  }
+  return {};
+}
+
+// @param falling_at_start  a direction that nothing holds there, or empty
 [[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system,
-                                       const ModalForce& modal, const SteadyMotion& motion,
-                                       double last_step) {
+                                       const ModalForce& modal, const SteadyMotion& motion, double last_step,
+                                       const std::string& falling_at_start) {
   const double least = std::max(modal.rounding_step, Equilibrium::kTolerance);
   require_moderate_stiffness(model, system, modal);
   if (model.has_modes() && !modal.is_falling && modal.rounding_step > kWorstRounding) {
@@ -89,12 +99,15 @@ void require_moderate_stiffness(const Model& model, const LinearisedSystem& syst
   Eigen::Index worst = 0;
   modal.force.cwiseAbs().maxCoeff(&worst);
   const NeutralDirection direction = describe(model, system.directions * modal.modes.vectors.col(worst));
-  throw support::NumericalError(
-      fmt::format("no static equilibrium after {} iterations: the last step was {:.3g} of the natural size "
-                  "(tolerance {:.0e}); what keeps moving: {}; check that something holds it against "
-                  "{}, and the start position",
-                  kMaxNewtonIterations, last_step, least, direction.description,
-                  motion.is_rest() ? "gravity" : "the inertia forces of the steady motion"));
+  std::string moving = direction.description;
+  if (!falling_at_start.empty() && falling_at_start != moving)
+    moving += "; what nothing holds at the start position against the forces: " + falling_at_start;
+  throw support::NumericalError(fmt::format(
+      "no static equilibrium after {} iterations: the last step was {:.3g} of the natural size "
+      "(tolerance {:.0e}); what keeps moving: {}; check that something holds it against "
+      "{}, and the start position",
+      kMaxNewtonIterations, last_step, least, moving,
+      motion.is_rest() ? "gravity and applied forces" : "the inertia forces of the steady motion"));
 }
 
 }  // namespace
@@ -118,11 +131,13 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     return equilibrium;
   }
   Search search;
+  std::string falling_at_start;
   double last_step = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration) {
     LinearisedSystem system = linearise(equations, 0.0, equilibrium.q, motion);
     equilibrium.q = equations.q();
     const ModalForce modal(model, system);
+    if (iteration == 0) falling_at_start = describe_falling(model, system, modal);
     const double newton_step =
         largest_natural(model, system.partition.independent, modal.calc_step(modal.force, 0.0));
     if (on_iteration) on_iteration(iteration, newton_step);
@@ -146,7 +161,9 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
       equilibrium.linearised = std::move(system);
       return equilibrium;
     }
-    if (iteration == kMaxNewtonIterations) throw_no_equilibrium(model, system, modal, motion, newton_step);
+    if (iteration == kMaxNewtonIterations) {
+      throw_no_equilibrium(model, system, modal, motion, newton_step, falling_at_start);
+    }
     equilibrium.q = take_step(model, equations, system, modal, equilibrium.q, motion, search);
     ++equilibrium.iterations;
     if (search.damping == 0.0 && !search.watch && newton_step < kLargestStep && !modal.is_falling) {

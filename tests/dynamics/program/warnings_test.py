@@ -211,6 +211,17 @@ force = [0.0, { harmonic = { amplitude = 5.0, frequency = 5.0 } }]
                 "is from its body's",
             )
 
+    def test_a_balance_that_a_force_prevents_names_what_nothing_holds(self):
+        # The search tips the car over, and what moves at its end says nothing about the cause.
+        templates = ROOT / "dynamics/models/templates"
+        push = '[[forces]]\nname = "push"\ntype = "applied"\npoint = "body.origin"\nforce = [1000.0, 0.0]\n'
+        vehicle = (templates / "half_car.toml").read_text(encoding="utf-8") + push
+        (self.folder / "half_car.toml").write_text(vehicle, encoding="utf-8")
+        run = shutil.copy(templates / "half_car_run.toml", self.folder)
+        process = run_program([PROGRAM, "equilibrium", run, "--quiet"], cwd=self.folder)
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertIn("what nothing holds at the start position against the forces: all bodies along x", process.stderr)
+
     def write_bar(self, angle, extra=""):
         """A bar of 1 m on a hinge under gravity."""
         (self.folder / "vehicle.toml").write_text(f"""
