@@ -16,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 
 from sprung_tools.files.results_file import open_results  # noqa: E402  after the path
 from sprung_tools.report.histories import list_channels  # noqa: E402
+from sprung_tools.report.shown_motion import ShownMotion  # noqa: E402
 from sprung_tools.report.summary import calc_force_rows  # noqa: E402
 from sprung_tools.runs.ride_measures import calc_travel, find_suspensions  # noqa: E402
 
@@ -72,7 +73,8 @@ class ForceChannels(ToolTestCase):
                 self.assertAlmostEqual(rows[f"{name}, largest"], value, places=9)
 
     def test_no_two_diagrams_have_one_name(self):
-        names = [channel.name for channel in list_channels(self.results, [], []) if channel.group == "Forces"]
+        channels = list_channels(self.results, [], [], ShownMotion([self.results]))
+        names = [channel.name for channel in channels if channel.group == "Forces"]
         self.assertIn("leaf, friction", names)
         self.assertEqual(len(names), len(set(names)), names)
 

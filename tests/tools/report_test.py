@@ -214,6 +214,25 @@ class Report(ToolTestCase):
         self.assertGreater(ranges[0], ranges[1])
         self.assertTrue(names[0].startswith("coupler.middle, position along "))
 
+    def test_runs_on_a_road_and_on_a_rig_are_shown_side_by_side(self):
+        vehicle = (ROOT / "dynamics/models/examples/quarter_car.toml").read_text(encoding="utf-8")
+        vehicle, _, _ = vehicle.partition('[[forces]]\nname = "tyre"')
+        vehicle = vehicle.replace("[0.0, 5.0] }", "[0.0] }")  # the rig shakes the wheel, and stands
+        shaker = "harmonic = { amplitude = 0.02, frequency = 2.0 }"
+        vehicle += f'[[motions]]\nname = "shaker"\njoint = "wheel_slide"\nfunction = {{ {shaker} }}\n'
+        (self.folder / "rig.toml").write_text(vehicle, encoding="utf-8")
+        run = self.folder / "rig_run.toml"
+        run.write_text('vehicle = "rig.toml"\nduration = 1.0\n', encoding="utf-8")
+        self.drive("quarter_car", "road.h5", "--set", "duration=1.0")
+        run_program([os.environ["SPRUNG_DYNAMICS"], "run", run, "-o", "rig.h5", "--quiet"], cwd=self.folder, check=True)
+        _, data = self.report("road.h5", "rig.h5")
+        shown = [[one["name"] for one in run["channels"] if one["group"] == "Vertical motion"] for run in data["runs"]]
+        self.assertEqual(*shown)
+        self.assertIn("sprung.origin, displacement", shown[1])
+        names = [{row["name"] for row in run["statistics"] if row["of"] == "sprung.origin"} for run in data["runs"]]
+        self.assertEqual(*names)
+        self.assertGreaterEqual(len(names[0]), 6)
+
     def test_rounding_of_a_vehicle_at_rest_is_shown_as_nothing(self):
         self.drive("quarter_car", "rest.h5", "--set", 'road={shape="flat"}', "--set", "duration=0.5")
         _, data = self.report("rest.h5")

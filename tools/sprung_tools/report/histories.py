@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.files.hdf5_file import read_numbers, read_real, read_texts
+from sprung_tools.files.hdf5_file import read_numbers, read_real
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
     EXTENT,
@@ -18,10 +18,10 @@ from sprung_tools.model.force_channels import (
     list_force_channels,
 )
 from sprung_tools.model.reduced_vectors import OF_THE_BODY, describe_vectors, read_vectors
-from sprung_tools.model.resolved_model import ROOT, Element, read_element
+from sprung_tools.model.resolved_model import Element, read_element
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode, find_kept
-from sprung_tools.report.shown_motion import choose_axes, is_vehicle, name_axis, read_motion
+from sprung_tools.report.shown_motion import ShownMotion, list_monitored, read_motion
 from sprung_tools.runs.labelled_runs import Shown
 from sprung_tools.runs.section_stress import ENDINGS, list_sources
 from sprung_tools.signals.spectra import calc_whole_spectrum
@@ -42,16 +42,9 @@ class Channel(NamedTuple):
     unit: str
 
 
-def list_monitored(results: ResultsFile) -> list[str]:
-    """The points in the run's summary, in the order of the vehicle file; the origins of all bodies if it has none."""
-    found = results.names("summary/points")
-    listed = f"{ROOT}/settings/output_points"
-    order = read_texts(results.file, listed) if results.file.has_dataset(listed) else []
-    points = [point for point in order if point in found] + [point for point in found if point not in order]
-    return points or [f"{body}.origin" for body in results.names("bodies")]
-
-
-def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequence[Shown]) -> list[Channel]:
+def list_channels(
+    results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequence[Shown], motion: ShownMotion
+) -> list[Channel]:
     """All histories that the page shows. extra: the quantities asked for."""
     channels = []
 
@@ -65,7 +58,7 @@ def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequ
     for shown in extra:
         add("Asked for", shown.label, shown.quantity)
     for point in list_monitored(results):
-        channels.extend(list_motion_channels(results, point))
+        channels.extend(list_motion_channels(results, point, motion))
     for drawn in bodies:
         for point in find_most_bent(results, drawn):
             add("Deflection", f"{point}, {IN_BODY_FRAME}", f"points/{point}/deflection.y")
@@ -84,12 +77,12 @@ def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequ
     return channels
 
 
-def list_motion_channels(results: ResultsFile, point: str) -> list[Channel]:
+def list_motion_channels(results: ResultsFile, point: str, motion: ShownMotion) -> list[Channel]:
     """Displacement, or position where no equilibrium was sought, and acceleration of a monitored point."""
-    group = "Vertical motion" if is_vehicle(results) else "Motion of points"
+    group = motion.name_group(point)
     return [
-        Channel(group, f"{point}, {what}{name_axis(results, axis)}", *read_motion(results, point, what, axis))
-        for axis in choose_axes(results, point)
+        Channel(group, f"{point}, {what}{motion.name_axis(point, axis)}", *read_motion(results, point, what, axis))
+        for axis in motion.choose_axes(results, point)
         for what in ("displacement" if results.is_from_balance else "position", "acceleration")
         if results.has(f"points/{point}/{what}.{axis}")
     ]
@@ -139,14 +132,14 @@ def pack_channel(channel: Channel, time: Floats, most: int) -> Packed:
     }  # fmt: skip
 
 
-def calc_spectra(results: ResultsFile) -> list[Packed]:
+def calc_spectra(results: ResultsFile, motion: ShownMotion) -> list[Packed]:
     """The power spectral densities of the monitored points' accelerations less their means, up to HIGHEST_FREQUENCY;
     none of a point that does not move, or of less than eight samples."""
     step = float(np.median(np.diff(results.time)))
     even = np.arange(results.time[0], results.time[-1] + 0.5 * step, step)
     spectra = []
     for point in list_monitored(results):
-        axis = choose_axes(results, point)[0]
+        axis = motion.choose_axes(results, point)[0]
         if even.size < 8 or not results.has(f"points/{point}/acceleration.{axis}"):
             continue
         values = np.interp(even, results.time, read_motion(results, point, "acceleration", axis)[0])
@@ -154,7 +147,7 @@ def calc_spectra(results: ResultsFile) -> list[Packed]:
             continue
         frequency, density = calc_whole_spectrum(values - values.mean(), step, SEGMENT)
         shown = (frequency > 0.0) & (frequency <= HIGHEST_FREQUENCY)
-        name = f"{point}{name_axis(results, axis)}"
+        name = f"{point}{motion.name_axis(point, axis)}"
         spectra.append({"name": name, "f": encode(frequency[shown]), "p": encode(density[shown])})
     return spectra
 

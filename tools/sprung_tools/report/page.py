@@ -8,6 +8,7 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.report.packing import Packed
 from sprung_tools.report.ride import pack_boundaries
 from sprung_tools.report.run_data import pack_run
+from sprung_tools.report.shown_motion import ShownMotion
 from sprung_tools.report.template import WEB, fill_template, pack_json, read_asset
 from sprung_tools.runs.labelled_runs import Run, Shown
 from sprung_tools.terminal.progress_bar import Progress
@@ -50,11 +51,12 @@ def make_small_page(
 
     extra: further quantities; checks: as read_checks() gives them.
     """
+    motion = ShownMotion(run.results for run in runs)
     for most, frames in THINNINGS:
         packed = []
         with Progress("reading runs", len(runs)) as progress:
             for run in runs:
-                packed.append(pack_run(run, extra, most, frames))
+                packed.append(pack_run(run, extra, motion, most, frames))
                 progress.step()
         page = make_page(title, {"title": title, "runs": packed, "superelements": checks, "most": most,
                                  "boundaries": pack_boundaries()})

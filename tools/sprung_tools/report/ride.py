@@ -6,8 +6,9 @@ import numpy as np
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.report.histories import Channel, list_monitored
+from sprung_tools.report.histories import Channel
 from sprung_tools.report.packing import Packed
+from sprung_tools.report.shown_motion import list_monitored
 from sprung_tools.runs.ride_assessment import (
     Vibration,
     calc_assessment,

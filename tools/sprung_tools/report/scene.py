@@ -10,8 +10,9 @@ from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import CONTACT, FORCE, list_force_channels, read_force_channel
 from sprung_tools.model.resolved_model import read_direction
 from sprung_tools.model.vehicle_shape import DrawnBody, Samples, Wheel, calc_motion, read_links, read_road
-from sprung_tools.report.histories import find_heavy, list_monitored
+from sprung_tools.report.histories import find_heavy
 from sprung_tools.report.packing import Packed, encode, find_kept
+from sprung_tools.report.shown_motion import list_monitored
 from sprung_tools.report.vehicle_modes import calc_equilibrium
 from sprung_tools.signals.spans import find_spans
 

@@ -23,9 +23,9 @@ from sprung_tools.model.force_channels import (
 )
 from sprung_tools.model.reduced_vectors import OF_THE_BODY, describe_vectors, read_vectors
 from sprung_tools.model.resolved_model import read_element, read_settings
-from sprung_tools.report.histories import IN_BODY_FRAME, LARGEST_AXIAL, LARGEST_MOMENT, Channel, list_monitored
+from sprung_tools.report.histories import IN_BODY_FRAME, LARGEST_AXIAL, LARGEST_MOMENT, Channel
 from sprung_tools.report.packing import Packed
-from sprung_tools.report.shown_motion import VERTICAL, choose_axes, name_axis, read_motion
+from sprung_tools.report.shown_motion import VERTICAL, ShownMotion, list_monitored, read_motion
 from sprung_tools.runs.labelled_runs import Run, samples_between
 from sprung_tools.runs.largest_loads import AXIAL, MOMENT, find_best_peak
 from sprung_tools.runs.ride_measures import read_window
@@ -63,10 +63,10 @@ def calc_hash(path: str | Path) -> str:
     return digest.hexdigest()
 
 
-def calc_statistics(results: ResultsFile, channels: Iterable[Channel]) -> list[Packed]:
+def calc_statistics(results: ResultsFile, channels: Iterable[Channel], motion: ShownMotion) -> list[Packed]:
     """The rows of the summary, over the span of the run's statistics; those of the computation are of the whole run."""
     inside = samples_between(results, *read_window(results))
-    rows = list_point_rows(results)
+    rows = list_point_rows(results, motion)
     kinds = {force: results.force_kind(force) for force in results.names("forces")}
     many = {force for force, kind in kinds.items() if list(kinds.values()).count(kind) > MOST_ALIKE}
     for force in kinds:
@@ -99,17 +99,17 @@ def list_load_rows(results: ResultsFile, body: str) -> list[Statistic]:
     return rows
 
 
-def list_point_rows(results: ResultsFile) -> list[Statistic]:
+def list_point_rows(results: ResultsFile, motion: ShownMotion) -> list[Statistic]:
     """The statistics of the monitored points along the axis that is shown."""
     rows: list[Statistic] = []
     there_are = results.names("summary/points")
     for point in (one for one in list_monitored(results) if one in there_are):
-        axis = choose_axes(results, point)[0]
+        axis = motion.choose_axes(results, point)[0]
         for what, unit in (("displacement", "m"), ("acceleration", "m/s^2")):
             is_known = axis == VERTICAL
             found = read_extremes(results, point, what) if is_known else calc_extremes(results, point, what, axis)
             rows += [
-                Statistic(point, f"{what}{name_axis(results, axis)}, {name}", unit, value)
+                Statistic(point, f"{what}{motion.name_axis(point, axis)}, {name}", unit, value)
                 for name, value in found.items()
             ]
     return rows
