@@ -28,12 +28,13 @@ Complex times(Complex a, Complex b) {
 // φ_1 … φ_4 of z: φ_1 = (e^z − 1)/z, φ_k+1 = (φ_k − 1/k!)/z.
 std::array<Complex, 5> calc_phi(Complex z) {
   std::array<Complex, 5> phi{std::exp(z)};
-  if (std::abs(z) >= kSmall) {
-    const Complex inverse = 1.0 / z;
-    phi[1] = (phi[0] - 1.0) * inverse;
-    phi[2] = (phi[1] - 1.0) * inverse;
-    phi[3] = (phi[2] - 0.5) * inverse;
-    phi[4] = (phi[3] - 1.0 / 6.0) * inverse;
+  const double square = std::norm(z);
+  if (square >= kSmall * kSmall) {
+    const Complex inverse = std::conj(z) / square;
+    phi[1] = times(phi[0] - 1.0, inverse);
+    phi[2] = times(phi[1] - 1.0, inverse);
+    phi[3] = times(phi[2] - 0.5, inverse);
+    phi[4] = times(phi[3] - 1.0 / 6.0, inverse);
     return phi;
   }
   double factorial = 1.0;
@@ -41,7 +42,7 @@ std::array<Complex, 5> calc_phi(Complex z) {
     factorial *= static_cast<double>(k);
     Complex term = 1.0 / factorial, sum = term;
     for (int i = 1; i < kTerms; ++i) {
-      term *= z / static_cast<double>(k + static_cast<std::size_t>(i));
+      term = times(term, z) / static_cast<double>(k + static_cast<std::size_t>(i));
       sum += term;
     }
     phi[k] = sum;
