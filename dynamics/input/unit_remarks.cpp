@@ -23,6 +23,9 @@ constexpr double kWideGyration = 10.0;
 constexpr double kLongGyration = 3.0;                    // m
 constexpr double kLargestDeflection = 10.0;              // m, of a spring under a body's own weight
 constexpr double kLeastDamping = 3e-3;                   // of critical, of the lighter body on the spring
+constexpr double kSlowestDamping = 50.0;                 // s, of the lighter body on a damper alone
+constexpr double kLongestPresliding = 0.1;               // m
+constexpr double kLeastPressure = 1000.0;                // Pa
 constexpr double kHighestBump = 5.0;                     // m
 constexpr double kStrongestGravity = 1000.0;             // m/s², more than 100 g: a centrifuge has less
 constexpr double kLargestTurn = 2.0 * std::numbers::pi;  // rad, of a body as drawn
@@ -80,6 +83,7 @@ void remark_on_force(const ForceDescription& force, std::vector<std::string>& re
     check("free_length", spring->free_length, kLongest, "m", kLengths);
   } else if (const auto* leaf = std::get_if<LeafSpring::Parameters>(&force.parameters)) {
     check("free_length", leaf->free_length, kLongest, "m", kLengths);
+    check("presliding_deflection", leaf->presliding_deflection, kLongestPresliding, "m", kLengths);
   } else if (const auto* stop = std::get_if<HydraulicStop::Parameters>(&force.parameters)) {
     check("contact_length", stop->contact_length, kLongest, "m", kLengths);
   } else if (const auto* tyre = std::get_if<TyreDescription>(&force.parameters)) {
@@ -89,6 +93,13 @@ void remark_on_force(const ForceDescription& force, std::vector<std::string>& re
     check("design_height", air->design_height, kLargestWheel, "m", kLengths);
     check("effective_area", area, kLargestArea, "m²", "areas are in m², not in cm² or mm²");
     check("volume", air->volume, kLargestVolume, "m³", "volumes are in m³, not in litres");
+    const double gauge = air->pressure - air->ambient_pressure;
+    if (!force.static_length && gauge > 0.0 && gauge < kLeastPressure) {
+      remarks.push_back(
+          remark_at(force.location,
+                    fmt::format("'forces.{}.gauge_pressure' is {:.4g} Pa; pressures are in Pa, not in bar",
+                                force.name, gauge)));
+    }
   }
 }
 
@@ -119,18 +130,26 @@ void remark_on_rates(const Vehicle& vehicle, const ForceDescription& force,
             "stiffnesses are in N/m, not in N/mm",
             force.name, most, weight)));
   }
-  const auto* spring = std::get_if<SpringDamper::Parameters>(&force.parameters);
-  if (spring == nullptr) return;
-  const double begin = std::max(0.0, spring->rebound_stop.value_or(0.0));  // of the travel between the stops
-  const double rate = spring->multiplicity * spring->spring.slope(begin);
-  if (rate > 0.0 && weight / rate > kLargestDeflection) {
+  const auto check_spring = [&](double rate, double multiplicity) {
+    if (!(rate > 0.0) || weight / (multiplicity * rate) <= kLargestDeflection) return;
     remarks.push_back(remark_at(
         force.location,
         fmt::format(
             "'forces.{}.spring' has {:.3g} N/m, which the weight of the lighter body on it, {:.3g} N, "
             "compresses by {:.3g} m; stiffnesses are in N/m, not in N/mm",
-            force.name, rate / spring->multiplicity, weight, weight / rate)));
+            force.name, rate, weight, weight / (multiplicity * rate))));
+  };
+  if (const auto* leaf = std::get_if<LeafSpring::Parameters>(&force.parameters))
+    check_spring(leaf->spring.slope(0.0), leaf->multiplicity);
+  if (const auto* bushing = std::get_if<Bushing::Parameters>(&force.parameters)) {
+    const auto slope = [&](std::size_t axis) { return bushing->directions[axis].spring.slope(0.0); };
+    check_spring(std::max(slope(0), slope(1)), bushing->multiplicity);
   }
+  const auto* spring = std::get_if<SpringDamper::Parameters>(&force.parameters);
+  if (spring == nullptr) return;
+  const double begin = std::max(0.0, spring->rebound_stop.value_or(0.0));  // of the travel between the stops
+  const double rate = spring->multiplicity * spring->spring.slope(begin);
+  check_spring(rate / spring->multiplicity, spring->multiplicity);
   const double damping =
       spring->multiplicity * std::max(spring->damper.slope(0.1), spring->damper.slope(-0.1));
   if (rate > 0.0 && damping > 0.0 && damping < kLeastDamping * 2.0 * std::sqrt(rate * mass)) {
@@ -139,6 +158,13 @@ void remark_on_rates(const Vehicle& vehicle, const ForceDescription& force,
         fmt::format("'forces.{}.damper' has {:.3g} N·s/m, {:.2g} % of critical for the lighter body on it; "
                     "dampers are in N·s/m, not in N·s/mm",
                     force.name, damping / spring->multiplicity, 50.0 * damping / std::sqrt(rate * mass))));
+  } else if (rate == 0.0 && damping > 0.0 && mass / damping > kSlowestDamping) {
+    remarks.push_back(remark_at(
+        force.location,
+        fmt::format(
+            "'forces.{}.damper' has {:.3g} N·s/m, which slows the lighter body on it down in {:.3g} s; "
+            "dampers are in N·s/m, not in N·s/mm",
+            force.name, damping / spring->multiplicity, mass / damping)));
   }
 }
 
@@ -161,6 +187,14 @@ std::vector<std::string> list_unit_remarks(const Run& run, const Vehicle& vehicl
         vehicle.gravity_location,
         fmt::format("'gravity' is {:.4g} m/s², {:.4g} times that of the Earth; it is in m/s², not in mm/s²",
                     vehicle.gravity.norm(), vehicle.gravity.norm() / kEarth)));
+  }
+  const bool has_tyres = std::any_of(vehicle.forces.begin(), vehicle.forces.end(),
+                                     [](const ForceDescription& force) { return force.on_road; });
+  if (has_tyres && vehicle.gravity.y() > 0.0) {
+    remarks.push_back(
+        remark_at(vehicle.gravity_location,
+                  fmt::format("'gravity' points upwards, away from the road: its y is {:.4g} m/s²",
+                              vehicle.gravity.y())));
   }
   for (const BodyDescription& body : vehicle.bodies) remark_on_body(body, remarks);
   for (const ForceDescription& force : vehicle.forces) {

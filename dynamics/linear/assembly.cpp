@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -152,14 +153,38 @@ void find_widest_motion_gap(const Model& model, const Eigen::VectorXd& phi, Asse
   }
 }
 
+// Inverse masses of the coordinates, with which bodies deform only where they cannot move as rigid ones.
+// @param terms  after update_mass
+Eigen::VectorXd make_reluctant_masses(const SystemTerms& terms) {
+  Eigen::VectorXd inverse_mass = terms.calc_metric().cwiseInverse();
+  for (const Body& body : terms.model().bodies)
+    inverse_mass.segment(body.first_coordinate + 3, body.num_modes()) *= kReluctanceToDeform;
+  return inverse_mass;
+}
+
+// The least change of coordinates, or of their rates, that takes a residual away to first order; none where
+// the joints are singular.
+// @param terms  after update_jacobian
+std::optional<Eigen::VectorXd> find_least_change(const SystemTerms& terms,
+                                                 const Eigen::VectorXd& inverse_mass,
+                                                 const Eigen::VectorXd& residual) {
+  const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
+  const Eigen::SparseMatrix<double> weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
+  Eigen::SparseMatrix<double> normal = Phi_q * weighted;
+  // Redundant joints make the matrix singular; the shift allows for them, and they are reported afterwards.
+  const double shift = kRegularisation * normal.diagonal().maxCoeff();
+  for (Eigen::Index i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  return -(weighted * factor.solve(residual));
+}
+
 // Moves the bodies until the joints are closed; the masses are those of the start.
 // @param[in,out] terms  at the positions q   @return the largest residual
 double close_joints(SystemTerms& terms, Eigen::VectorXd& q) {
   const Model& model = terms.model();
   terms.update_mass();
-  Eigen::VectorXd inverse_mass = terms.calc_metric().cwiseInverse();
-  for (const Body& body : model.bodies)
-    inverse_mass.segment(body.first_coordinate + 3, body.num_modes()) *= kReluctanceToDeform;
+  const Eigen::VectorXd inverse_mass = make_reluctant_masses(terms);
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
   const auto calc_size = [&] {
     terms.calc_residual(phi);
@@ -170,18 +195,11 @@ double close_joints(SystemTerms& terms, Eigen::VectorXd& q) {
        ++iteration) {
     if (iteration == kMaxClosingIterations) throw_cannot_close(model, phi);
     terms.update_jacobian();
-    const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
-    const Eigen::SparseMatrix<double> weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
-    Eigen::SparseMatrix<double> normal = Phi_q * weighted;
-    // Redundant joints make the matrix singular; the shift allows for them, and they are reported afterwards.
-    const double shift = kRegularisation * normal.diagonal().maxCoeff();
-    for (Eigen::Index i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
-    if (factor.info() != Eigen::Success) throw_cannot_close(model, phi);
-    Eigen::VectorXd step = -(weighted * factor.solve(phi));
-    const double largest = model.largest_natural(step);
-    if (largest > 0.3) step *= 0.3 / largest;  // far from closed, small steps stay on the right branch
-    q += step;
+    std::optional<Eigen::VectorXd> step = find_least_change(terms, inverse_mass, phi);
+    if (!step) throw_cannot_close(model, phi);
+    const double largest = model.largest_natural(*step);
+    if (largest > 0.3) *step *= 0.3 / largest;  // far from closed, small steps stay on the right branch
+    q += *step;
     terms.update_positions(0.0, q);
     size = calc_size();
   }
@@ -218,13 +236,21 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
 }
 
 VelocityReport project_velocities(const Model& model, double time, const Eigen::VectorXd& q,
-                                  Eigen::VectorXd& v) {
+                                  Eigen::VectorXd& v, ModalRates modal_rates) {
   VelocityReport report;
   if (model.num_constraints == 0) return report;
   const Eigen::VectorXd asked = v;
   ConstrainedEquations equations(model, SystemTerms::Markers::kActing);
   equations.terms().update_positions(time, q);
   equations.terms().update_jacobian();
+  if (modal_rates == ModalRates::kIfNecessary && model.has_modes()) {
+    equations.terms().update_mass();
+    Eigen::VectorXd residual = Eigen::VectorXd::Zero(model.num_constraints);
+    equations.terms().calc_time_rate(residual);
+    equations.terms().jacobian().add_product(v, residual);
+    const Eigen::VectorXd inverse_mass = make_reluctant_masses(equations.terms());
+    if (const auto change = find_least_change(equations.terms(), inverse_mass, residual)) v += *change;
+  }
   if (!std::isfinite(equations.close_rates(v))) {
     throw support::NumericalError(fmt::format(
         "the joints allow no velocities at t = {:.9g} s: a singular position; start slightly away from it",

@@ -38,6 +38,12 @@ struct VelocityReport {
   std::string coordinate;       ///< the coordinate that has it
 };
 
+/// How the rates of modes change where velocities do not satisfy the constraints.
+enum class ModalRates {
+  kByMass,      ///< as much as those of bodies: as in an impact
+  kIfNecessary  ///< only where bodies cannot follow as rigid ones
+};
+
 /// Replaces v by the nearest velocity, in the mass metric, that satisfies the constraints. Prescribed motion
 /// is followed.
 /// @param q          assembled positions, num_coordinates
@@ -45,6 +51,6 @@ struct VelocityReport {
 /// @throws support::NumericalError at a singular position
 /// Checked by tests/dynamics/linear/assembly_test.cpp
 VelocityReport project_velocities(const Model& model, double time, const Eigen::VectorXd& q,
-                                  Eigen::VectorXd& v);
+                                  Eigen::VectorXd& v, ModalRates modal_rates = ModalRates::kByMass);
 
 }  // namespace sprung::dynamics

@@ -90,7 +90,8 @@ std::string describe_falling(const Model& model, const LinearisedSystem& system,
                                        const std::string& falling_at_start) {
   const double least = std::max(modal.rounding_step, Equilibrium::kTolerance);
   require_moderate_stiffness(model, system, modal);
-  if (model.has_modes() && !modal.is_falling && modal.rounding_step > kWorstRounding) {
+  const bool is_falling = modal.is_falling || !falling_at_start.empty();
+  if (model.has_modes() && !is_falling && modal.rounding_step > kWorstRounding) {
     throw support::NumericalError(fmt::format(
         "no static equilibrium: rounding beside the largest stiffness, of a mode at {:.3g} Hz, causes steps "
         "of up to {:.1e} of the natural size; take fewer of the highest modes",

@@ -17,6 +17,7 @@ constexpr double kTellable = 1e-3;           // share of a single mode
 constexpr double kTooMuchLeftOut = 0.05;     // share of the largest deflection or acceleration
 constexpr double kAlarmingClosure = 1e-3;    // far above the closure at any useful tolerance
 constexpr double kClosed = 1e-6;             // gap of a joint, of the largest movement
+constexpr double kFarMoved = 0.05;           // of the length scale, by closing the joints
 constexpr double kFarMotion = 0.02;          // natural sizes of its coordinate
 constexpr double kSmallestScale = 1e-4;      // m: a hundred thousand times the dead band of switches
 constexpr double kTooRough = 0.4;            // SampleDensity::roughness: about five samples per period
@@ -214,11 +215,10 @@ bool is_converged(const std::vector<RunWarning>& warnings) {
 }
 
 std::string describe_far_movement(const Model& model, const AssemblyReport& assembly) {
-  if (!(assembly.largest_movement > model.length_scale)) return {};
+  if (!(assembly.largest_movement > kFarMoved * model.length_scale)) return {};
   const bool was_open = assembly.widest_gap > kClosed * assembly.largest_movement;
   return fmt::format(
-      "to {}, {} was moved by {:.3g} m, farther than any point is from its body's origin ({:.3g} m): check "
-      "{}",
+      "to {}, {} was moved by {:.3g} m; no point is farther than {:.3g} m from its body's origin: check {}",
       was_open
           ? fmt::format("close the joints, of which '{}' was {:.3g} m open", assembly.open_joint,
                         assembly.widest_gap)
@@ -234,14 +234,15 @@ std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyRe
   const auto warn = [&](std::string text) {
     warnings.push_back({kSummary, {std::string(kComputation)}, std::move(text)});
   };
-  if (std::string moved = describe_far_movement(model, assembly); !moved.empty()) {
-    warn(std::move(moved));
-  } else if (const MotionGap& gap = assembly.motion_gap; gap.natural_size > kFarMotion) {
+  const MotionGap& gap = assembly.motion_gap;
+  if (gap.natural_size > kFarMotion && assembly.largest_movement <= model.length_scale) {
     warn(fmt::format(
         "the prescribed motion '{}' begins {:.3g} {} {} its value in the drawing, so that bodies were "
         "moved and turned to meet it, and what is \"as-drawn\" is as it is there; begin its function at "
         "the drawn value",
         gap.motion, std::abs(gap.above), gap.unit, gap.above > 0.0 ? "below" : "above"));
+  } else if (std::string moved = describe_far_movement(model, assembly); !moved.empty()) {
+    warn(std::move(moved));
   }
   if (equilibrium && !equilibrium->stable && start.q == equilibrium->q) {
     warn(

@@ -193,8 +193,8 @@ Eigen::VectorXd find_balance(const ModalProperties& properties, Preparation prep
   return prepared.equilibrium->q;
 }
 
-// The same; where there is no balance, the error tells of wheels that are drawn under the road, of bodies
-// on which nothing acts, or that are drawn far from each other.
+// The same; where there is no balance, the error, or a remark before it, tells of wheels that are drawn under
+// the road, of bodies on which nothing acts, or that are drawn far from each other.
 Eigen::VectorXd find_balance_or_explain(const ModalProperties& properties, Preparation preparation,
                                         const RunRequest& request, PreparedRun& prepared) {
   try {
@@ -209,6 +209,13 @@ Eigen::VectorXd find_balance_or_explain(const ModalProperties& properties, Prepa
           describe_far_movement(model, assemble_positions(model, q))})
       if (!reason.empty()) message += "; " + reason;
     throw support::NumericalError(message);
+  } catch (const support::InputError&) {
+    // What is wrong may be another place of the drawing than the one to which the error leads.
+    const Model model = make_balance_model(properties, prepared);
+    Eigen::VectorXd q = make_start_positions(model, prepared.vehicle);
+    report_remark(remark_on_wheel_under_road(prepared.vehicle, model, q), request, prepared);
+    report_remark(describe_far_movement(model, assemble_positions(model, q)), request, prepared);
+    throw;
   }
 }
 

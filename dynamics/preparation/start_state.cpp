@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/linear/assembly.h"
 #include "dynamics/linear/joint_rates.h"
 #include "dynamics/output/last_state.h"
 #include "dynamics/system/system_terms.h"
@@ -59,6 +60,11 @@ std::vector<JointRate> find_joint_rates(const Run& run, const Model& model) {
   return rates;
 }
 
+// A vehicle with a speed moves as rigid bodies do; velocities of [initial] are those of a hit.
+ModalRates find_modal_rates(const Run& run) {
+  return run.initial.empty() ? ModalRates::kIfNecessary : ModalRates::kByMass;
+}
+
 // Velocities at the start, of the run's model or of one with more modes. @param[out] v  model.num_coordinates
 VelocityReport find_start_velocities(const PreparedRun& prepared, const Model& model,
                                      const Eigen::VectorXd& q, Eigen::VectorXd& v) {
@@ -69,7 +75,7 @@ VelocityReport find_start_velocities(const PreparedRun& prepared, const Model& m
     for (const Body& body : model.bodies) v[body.first_coordinate] -= prepared.vehicle.direction * run.speed;
     v += prepared.equilibrium->motion.calc_velocity(model, q);
   }
-  VelocityReport report = project_velocities(model, 0.0, q, v);
+  VelocityReport report = project_velocities(model, 0.0, q, v, find_modal_rates(run));
   impose_joint_rates(model, q, find_joint_rates(run, model), v);
   return report;
 }
@@ -119,7 +125,7 @@ MissingStart find_missing_start(const PreparedRun& prepared, const Model& full) 
 std::vector<WheelSpeed> find_wheels_of_other_speed(const PreparedRun& prepared) {
   const Model& model = prepared.model;
   Eigen::VectorXd v = make_start_velocities(prepared.run, prepared.vehicle, model);
-  project_velocities(model, prepared.start.time, prepared.start.q, v);
+  project_velocities(model, prepared.start.time, prepared.start.q, v, find_modal_rates(prepared.run));
   SystemTerms terms(model);
   terms.update_positions(prepared.start.time, prepared.start.q);
   terms.update_velocities(v);

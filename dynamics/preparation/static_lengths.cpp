@@ -22,12 +22,14 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr int kMostIterations = 50;
-constexpr double kTolerance = 1e-9;      // relative to the static length
-constexpr double kSmallestShare = 0.2;   // of a free length that one step leaves of it
-constexpr double kNearlyReached = 0.01;  // relative error of lengths
-constexpr double kHeld = 1e-3;           // of a length, by which the whole weight compresses a held spring
-constexpr double kMostCompressed = 4.0;  // of a length: the largest deflection that is looked for
-constexpr double kRedrawn = 0.5;         // |log| of a length over that of the drawing, which is hardly meant
+constexpr double kTolerance = 1e-9;        // relative to the static length
+constexpr double kRounding = 1e-7;         // the same, of balances with stiff tyres
+constexpr int kIterationsToRounding = 20;  // after them only rounding is left
+constexpr double kSmallestShare = 0.2;     // of a free length that one step leaves of it
+constexpr double kNearlyReached = 0.01;    // relative error of lengths
+constexpr double kHeld = 1e-3;             // of a length, by which the whole weight compresses a held spring
+constexpr double kMostCompressed = 4.0;    // of a length: the largest deflection that is looked for
+constexpr double kRedrawn = 0.5;  // |log| of a length over that of the drawing, which is hardly meant
 
 // A linear spring in the place of an air spring, about as stiff as one that carries a vehicle.
 SpringDamper::Parameters make_stand_in(const AirSpring::Parameters& air) {
@@ -259,7 +261,8 @@ std::vector<StaticLengthResult> solve_static_lengths(
     closest.update(lengths, targets);
     const Eigen::VectorXd before = error;
     error = lengths - targets;
-    if ((error.array().abs() <= kTolerance * targets.array()).all()) {
+    const double tolerance = iteration < kIterationsToRounding ? kTolerance : kRounding;
+    if ((error.array().abs() <= tolerance * targets.array()).all()) {
       check_directions(vehicle, model, springs, drawn, q);
       // The run looks for its balance from the drawing: that may be another one.
       q = find_equilibrium(model, drawn).q;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "dynamics/output/resting_forces.h"
 #include "dynamics/preparation/turned_springs.h"
@@ -20,6 +22,7 @@ namespace {
 constexpr double kFarTurned = 0.25 * std::numbers::pi;
 constexpr double kDeeplyPressed = 0.5;  // of a tyre's radius
 constexpr double kFarApart = 10.0;      // of the largest distance of a point from its body's frame
+constexpr double kFarSettled = 0.1;     // the same
 
 std::string remark_at(const support::SourceLocation& location, const std::string& text) {
   return fmt::format("{}: in static equilibrium {}", support::format_place(location), text);
@@ -59,6 +62,31 @@ void check_stops(const ForceDescription& force, const ForceElement& element, std
   }
 }
 
+// A wheel whose centre is drawn under the road.
+struct DeepWheel {
+  const ForceDescription* force;
+  double depth;  // of its centre [m]
+};
+
+// The deepest one, if there are any.
+std::optional<DeepWheel> find_wheel_under_road(const Vehicle& vehicle, const Model& model,
+                                               const Eigen::VectorXd& drawn) {
+  SystemTerms terms(model);
+  terms.update_positions(0.0, drawn);
+  std::optional<DeepWheel> deepest;
+  for (std::size_t f = 0; f < vehicle.forces.size(); ++f) {
+    if (!vehicle.forces[f].on_road) continue;
+    const double depth = -terms.markers()[static_cast<std::size_t>(model.forces[f]->markers().front())].r.y();
+    if (depth > (deepest ? deepest->depth : 0.0)) deepest = {&vehicle.forces[f], depth};
+  }
+  return deepest;
+}
+
+std::string describe(const DeepWheel& wheel) {
+  return fmt::format("as drawn, the centre of the wheel of 'forces.{}' is {:.4g} m under the road",
+                     wheel.force->name, wheel.depth);
+}
+
 }  // namespace
 
 std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Model& model,
@@ -74,8 +102,17 @@ std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Mod
     const auto center = static_cast<std::size_t>(model.forces[f]->markers().front());
     check_tyre(vehicle.forces[f], at_rest.terms().markers()[center].r.y(), remarks);
   }
+  if (std::string remark = remark_on_wheel_under_road(vehicle, model, drawn); !remark.empty())
+    remarks.push_back(std::move(remark));
   for (std::size_t b = 0; b < model.bodies.size() && has_tyres; ++b) {
-    const Eigen::Index angle = model.bodies[b].first_coordinate + 2;
+    const Eigen::Index angle = model.bodies[b].first_coordinate + 2, height = angle - 1;
+    const double risen = found[height] - drawn[height];
+    if (std::abs(risen) > kFarSettled * model.length_scale) {
+      remarks.push_back(
+          remark_at(vehicle.bodies[b].location,
+                    fmt::format("'bodies.{}' is {:.3g} m {} than it is drawn", vehicle.bodies[b].name,
+                                std::abs(risen), risen > 0.0 ? "higher" : "lower")));
+    }
     const double turned = found[angle] - drawn[angle];
     if (std::abs(turned) <= kFarTurned) continue;
     remarks.push_back(remark_at(vehicle.bodies[b].location,
@@ -91,25 +128,18 @@ std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Mod
   return remarks;
 }
 
+std::string remark_on_wheel_under_road(const Vehicle& vehicle, const Model& model,
+                                       const Eigen::VectorXd& drawn) {
+  const std::optional<DeepWheel> deepest = find_wheel_under_road(vehicle, model, drawn);
+  if (!deepest) return {};
+  return fmt::format("{}: {}", support::format_place(deepest->force->location), describe(*deepest));
+}
+
 void reject_wheels_under_road(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn) {
-  SystemTerms terms(model);
-  terms.update_positions(0.0, drawn);
-  const ForceDescription* deepest = nullptr;
-  double lowest = 0.0;
-  for (std::size_t f = 0; f < vehicle.forces.size(); ++f) {
-    if (!vehicle.forces[f].on_road) continue;
-    const double height = terms.markers()[static_cast<std::size_t>(model.forces[f]->markers().front())].r.y();
-    if (!(height < lowest)) continue;
-    lowest = height;
-    deepest = &vehicle.forces[f];
-  }
-  if (deepest == nullptr) return;
-  throw support::InputError(
-      deepest->location,
-      fmt::format(
-          "no static equilibrium: as drawn, the centre of the wheel of 'forces.{}' is {:.4g} m under the "
-          "road; check the positions of the bodies",
-          deepest->name, -lowest));
+  const std::optional<DeepWheel> deepest = find_wheel_under_road(vehicle, model, drawn);
+  if (!deepest) return;
+  throw support::InputError(deepest->force->location, "no static equilibrium: " + describe(*deepest) +
+                                                          "; check the positions of the bodies");
 }
 
 std::string describe_idle_bodies(const Model& model) {

@@ -10,8 +10,8 @@
 namespace sprung::dynamics {
 
 /// Remarks on a static equilibrium that hardly any vehicle has: springs that point the other way than as
-/// drawn, suspensions on their stops, bodies of a vehicle on tyres that are turned far, tyres that are
-/// pressed in deeply.
+/// drawn, suspensions on their stops, bodies of a vehicle on tyres that are turned or moved far, tyres that
+/// are pressed in deeply, and on wheels that are drawn under the road.
 /// @param drawn, found  positions before and in equilibrium, num_coordinates
 /// @throws support::InputError at a tyre that is pressed in by more than its radius
 /// Checked by tests/dynamics/program/unlikely_balance_test.py
@@ -23,6 +23,11 @@ std::string describe_idle_bodies(const Model& model);
 
 /// Names the force element that is drawn far longer than the vehicle's bodies are large; "" if there is none.
 std::string describe_far_element(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn);
+
+/// A remark on the deepest of the wheels that are drawn under the road; "" if there is none.
+/// @param drawn  num_coordinates
+std::string remark_on_wheel_under_road(const Vehicle& vehicle, const Model& model,
+                                       const Eigen::VectorXd& drawn);
 
 /// Refuses a vehicle of which no equilibrium was found where its wheels are drawn under the road.
 /// @param drawn  num_coordinates

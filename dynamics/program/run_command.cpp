@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -80,14 +81,19 @@ void warn_of_missed_road(const PreparedRun& prepared, std::vector<RunWarning>& w
 void warn_of_other_speed(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
   const Run& run = prepared.run;
   if (!run.continue_from.empty() || !run.initial.empty() || run.start == Run::Start::kSteady) return;
+  std::vector<std::string> motions;
+  for (const auto& joint : prepared.model.joints)
+    if (joint->is_motion()) motions.push_back("'" + joint->name + "'");
+  const std::string prescribed =
+      motions.empty() ? "" : fmt::format("prescribed motion ({}) or ", fmt::join(motions, ", "));
   for (const WheelSpeed& wheel : find_wheels_of_other_speed(prepared)) {
     warnings.push_back(
         {"summary",
          {std::string(kComputation)},
          fmt::format(
-             "'{}' starts at {:.6g} m/s and not at 'speed', {:g} m/s, which prescribed motion or joints "
-             "do not allow: the run begins with a jolt; give both the same speed",
-             wheel.name, wheel.speed, run.speed)});
+             "'{}' starts at {:.6g} m/s and not at 'speed', {:g} m/s, which {}joints do not allow: the run "
+             "begins with a jolt; give both the same speed",
+             wheel.name, wheel.speed, run.speed, prescribed)});
   }
 }
 

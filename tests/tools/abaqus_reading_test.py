@@ -34,6 +34,10 @@ class AbaqusReading(AbaqusCase):
         np.testing.assert_allclose(np.abs(mesh.heights), [[0, 1, 0]] * 2 + [[1, 0, 0]] * 2, atol=1e-15)
         self.assertIn("which are now larger (L-2: 1000 and 1000)", " ".join(mesh.left_behind))
 
+    def test_a_mark_of_the_encoding_before_the_first_keyword_changes_nothing(self):
+        text = PART + ASSEMBLY.format(sets="")
+        np.testing.assert_array_equal(self.read("\ufeff" + text).positions, self.read(text).positions)
+
     def test_a_blank_field_or_line_of_an_instance_is_zero_and_keeps_its_place(self):
         up = [[0.0, 5.0, 0.0], [1.0, 5.0, 0.0], [2.0, 5.0, 0.0]]
         turned = [[3.0, -3.0, 0.0], [3.0, -2.0, 0.0], [3.0, -1.0, 0.0]]  # (x, y) → (3 - y, x - 3), by 90° about (3, 0)

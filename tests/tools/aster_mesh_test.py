@@ -87,6 +87,12 @@ class AsterMeshTest(ToolTestCase):
         np.testing.assert_array_equal(shuffled.positions, mesh.positions)
         np.testing.assert_array_equal(shuffled.lines, mesh.lines)
 
+    def test_a_mark_of_the_encoding_and_commas_change_nothing(self):
+        mesh = read_aster_mesh(self.write(PORTAL))
+        marked = PORTAL.replace("TITRE", "SEG2\n S4 A,C\nFINSF\nTITRE", 1)
+        read = read_aster_mesh(self.write("\ufeff" + marked))
+        self.assertEqual(len(read.lines), len(mesh.lines) + 1)
+
     def test_damaged_meshes_are_refused_with_their_place(self):
         for old, new, message in (
             ("FIN\n", "", "the file is truncated"),
@@ -102,6 +108,7 @@ class AsterMeshTest(ToolTestCase):
             ("FEET A D", "FEET A X", "the group 'FEET' names 'X', which is not there"),
             ("S3 C D", "S3 C D\nFINSF\nSEG3\n S4 A D", "a.mail:17: error: SEG3: element 'S4' has 2 nodes, expected 3"),
             ("COOR_2D", "COORDS", "0 tables of coordinates"),
+            ("SEG2", "seg2", "a.mail:11: error: seg2: a block of a kind that is not known"),
         ):
             with self.subTest(new):
                 position = PORTAL.rindex(old) if old.startswith("FIN") else PORTAL.index(old)

@@ -69,6 +69,11 @@ class Reading(ToolTestCase):
         process = self.run_tool("convert_mesh", "b.bdf", "a.msh")
         self.assert_refuses(process, "b.bdf:1: error: INCLUDE: there is no file")
 
+    def test_a_mark_of_the_encoding_before_the_first_card_changes_nothing(self):
+        (self.folder / "nodes.bdf").write_text("\ufeffGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n", encoding="utf-8")
+        mesh = self.read(f"\ufeff{BAR}INCLUDE 'nodes.bdf'\n")
+        self.assertEqual((mesh.node_ids.tolist(), len(mesh.lines)), ([1, 2], 1))
+
     def test_nodes_in_turned_cylindrical_and_spherical_systems_are_where_they_are(self):
         # System 1 has its origin at (1, 2, 3), z along the basic x, and x along the basic y, so that y lies along z.
         systems = "CORD2R,1,0,1.,2.,3.,2.,2.,3.\n,1.,3.,3.\nCORD2C,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"

@@ -54,6 +54,9 @@ class Places(ToolTestCase):
             with self.subTest(place):
                 self.assertEqual(str(file.fail(place, "wrong")), f"{file.path}:{where}: error: wrong")
 
+    def test_a_mark_of_the_encoding_before_the_text_changes_nothing(self):
+        self.assertEqual(self.read("\ufeff" + TEXT).data, self.read(TEXT).data)
+
     def test_a_part_of_a_value_is_found_in_its_line(self):
         file = self.read(TEXT)
         self.assertIn("a.toml:5:4: error: no", str(file.fail(("list",), "no", fragment="second")))

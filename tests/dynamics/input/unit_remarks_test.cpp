@@ -52,6 +52,26 @@ TEST_CASE("Dimensions of suspension elements in other units are remarked on") {
   CHECK(with("type = \"leaf-spring\"\nfree_length = 410.0\nspring = { polynomial = [0.0, 1e5] }\n"
              "friction = { coefficient = 500.0 }\npresliding_deflection = 0.002") ==
         about("free_length' is 410 m", "lengths are in m, not in mm"));
+  const auto leaf = [&](const std::string& rate, const std::string& presliding) {
+    return with("type = \"leaf-spring\"\nfree_length = 0.41\nspring = { polynomial = [0.0, " + rate +
+                "] }\nfriction = { coefficient = 500.0 }\npresliding_deflection = " + presliding);
+  };
+  CHECK(leaf("1e5", "0.002").empty());
+  CHECK(leaf("1e5", "2.0") == about("presliding_deflection' is 2 m", "lengths are in m, not in mm"));
+  // The arm's 4 kg weigh 36.06 N.
+  CHECK(leaf("1.0", "0.002") ==
+        about("spring' has 1 N/m, which the weight of the lighter body on it, 36.1 N, compresses by 36.1 m",
+              "stiffnesses are in N/m, not in N/mm"));
+  CHECK(with("type = \"bushing\"\nx = { spring = { polynomial = [0.0, 1.0] } }\n"
+             "y = { spring = { polynomial = [0.0, 0.5] } }") ==
+        about("spring' has 1 N/m, which the weight of the lighter body on it, 36.1 N, compresses by 36.1 m",
+              "stiffnesses are in N/m, not in N/mm"));
+  CHECK(with("type = \"air-spring\"\ngauge_pressure = 4.0\ndesign_height = 0.25\neffective_area = 0.05\n"
+             "volume = 0.0125") == about("gauge_pressure' is 4 Pa", "pressures are in Pa, not in bar"));
+  CHECK(with("type = \"spring-damper\"\nfree_length = 0.3\ndamper = { coefficient = 0.05 }") ==
+        about("damper' has 0.05 N·s/m, which slows the lighter body on it down in 80 s",
+              "dampers are in N·s/m, not in N·s/mm"));
+  CHECK(with("type = \"spring-damper\"\nfree_length = 0.3\ndamper = { coefficient = 0.5 }").empty());
   CHECK(with("type = \"hydraulic-stop\"\ncontact_length = 150.0\nspring = { polynomial = [0.0, 1e5] }\n"
              "metering = { coefficient = 1e4 }") ==
         about("contact_length' is 150 m", "lengths are in m, not in mm"));
@@ -74,7 +94,9 @@ TEST_CASE("Gravity in mm/s² and angles in degrees are remarked on, a centrifuge
             "cart.toml:17:9: 'bodies.arm.angle' is -30 rad, more than a full turn; angles are "
             "in rad, not in degrees"});
   CHECK(remarks_on("position = [3.5, 0.9]", "position = [3.5, 0.9]\nangle = 6.28").empty());
-  CHECK(remarks_on("gravity = [0.5, -9.0]", "gravity = [0.0, -25.0]").empty());       // Jupiter
+  CHECK(remarks_on("gravity = [0.5, -9.0]", "gravity = [0.0, -25.0]").empty());  // Jupiter
+  CHECK(remarks_on("gravity = [0.5, -9.0]", "gravity = [0.0, 9.8]").front() ==
+        "cart.toml:3:11: 'gravity' points upwards, away from the road: its y is 9.8 m/s²");
   CHECK(remarks_on("gravity = [0.5, -9.0]", "gravity = [0.0, -900.0]").size() <= 1);  // 92 g
 }
 

@@ -209,6 +209,31 @@ TEST_CASE("Assembly deforms a body only where it cannot close the joints as a ri
   CHECK(strain_energy({0, 4}, 0.0, 1e-3) >= 10.0 * (1.0 - 1e-6));
 }
 
+// A block at rest on the end of a beam that moves along its axis: both move on as rigid bodies.
+TEST_CASE("Modes take part in the start only where bodies cannot follow as rigid ones", "[analysis]") {
+  const test::BeamSuperelement beam = test::make_beam_superelement(
+      test::make_straight_beam("beam", {0.0, 0.5, 1.0, 1.5, 2.0}, 1e7, 2e3, 6.0), 12);
+  Model model;
+  const int body = test::add_body(
+      model,
+      dynamics::make_flexible_body("beam", beam.superelement, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+  const int block = test::add_body(model, dynamics::make_rigid_body("block", 30.0, 1.0));
+  test::add_pin(model, "pin", test::add_node_marker(model, body, beam.superelement, 4),
+                test::add_marker(model, block, {0.0, 0.0}));
+  dynamics::number_model(model);
+  VectorXd q = VectorXd::Zero(model.num_coordinates);
+  q.segment<2>(model.bodies[1].first_coordinate) = beam.superelement.node_positions.col(4);
+  VectorXd v = VectorXd::Zero(model.num_coordinates);
+  v[0] = 5.0;
+  VectorXd hit = v;
+  dynamics::project_velocities(model, 0.0, q, hit);
+  CHECK(hit.segment(3, 12).norm() > 1.0);
+  dynamics::project_velocities(model, 0.0, q, v, dynamics::ModalRates::kIfNecessary);
+  CHECK(v.segment(3, 12).norm() < 1e-4);  // kg^½ m/s
+  CHECK(v[0] > 0.5);
+  CHECK(v[model.bodies[1].first_coordinate] == Approx(v[0]).epsilon(1e-4));
+}
+
 TEST_CASE("Velocities are projected on the joints with the least change in the mass metric", "[analysis]") {
   const Model model = make_four_bar(1.0);
   VectorXd q = rough_four_bar();

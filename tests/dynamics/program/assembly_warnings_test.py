@@ -57,7 +57,7 @@ class AssemblyWarnings(DynamicsTestCase):
         for speed, told in ((5.0, False), (8.0, True)):
             process = self.run_program("--set", f"speed={speed}", "-o", "x.h5")
             self.assertEqual(process.returncode, 0, process.stderr)
-            words = f"starts at 5 m/s and not at 'speed', {speed:g} m/s, which prescribed motion or joints"
+            words = f"starts at 5 m/s and not at 'speed', {speed:g} m/s, which prescribed motion ('drive') or joints do"
             self.assertEqual(words in process.stderr, told, process.stderr)
 
     def test_a_motion_that_begins_away_from_the_drawing(self):

@@ -24,6 +24,32 @@ class WheelsUnderTheRoad(DynamicsTestCase):
                             "the centre of the wheel of 'forces.front_tyre' is 29.7 m under the road")  # fmt: skip
         self.assertNotIn("gravity", process.stderr)
 
+    def test_a_wheel_that_the_balance_lifts_out_of_the_road_is_remarked_on(self):
+        # The half car drawn 0.9 m too low: its wheels begin 0.6 m under the road.
+        process = self.run_half_car(-0.9)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertRegex(process.stderr, r"remark: vehicle.toml:\d+:\d+: as drawn, the centre of the wheel of "
+                                         r"'forces\.front_tyre' is 0\.6 m under the road")  # fmt: skip
+
+    def test_bodies_far_from_their_drawing_are_remarked_on(self):
+        for above, told in ((0.0, False), (0.7, True)):
+            process = self.run_half_car(above)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            found = re.findall(r"static equilibrium 'bodies.(\w+)' is ([\d.]+) m lower than it is", process.stderr)
+            self.assertEqual([name for name, _ in found], ["body", "front_axle", "rear_axle"] if told else [])
+            for _, lower in found:
+                self.assertAlmostEqual(float(lower), above, delta=0.05)
+
+    def run_half_car(self, above):
+        """The balance of the half car of the templates, drawn higher by a distance in m."""
+        templates = ROOT / "dynamics/models/templates"
+        text = (templates / "half_car.toml").read_text(encoding="utf-8")
+        text = re.sub(r"(position = \[\S+,) (\S+)\]", lambda found: f"{found[1]} {float(found[2]) + above}]", text)
+        (self.folder / "vehicle.toml").write_text(text, encoding="utf-8")
+        run = (templates / "half_car_run.toml").read_text(encoding="utf-8")
+        (self.folder / "bump.toml").write_text(run.replace("half_car.toml", "vehicle.toml"), encoding="utf-8")
+        return self.run_program(verb="equilibrium")
+
 
 class BodiesOnWhichNothingActs(DynamicsTestCase):
     def test_they_are_named_where_there_is_no_equilibrium(self):

@@ -29,7 +29,7 @@ class TomlFile:
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         try:
-            text = self.path.read_text(encoding="utf-8")
+            text = self.path.read_text(encoding="utf-8-sig")
         except OSError as error:
             raise InputError(f"{path}: error: cannot read the file ({error.strerror})") from error
         except UnicodeDecodeError as error:

@@ -54,7 +54,7 @@ def read_blocks(path: str, including: tuple[str, ...] = ()) -> list[Block]:
     including: the chain of files that leads to this one by *INCLUDE.
     """
     try:
-        with open(path, encoding="utf-8", errors="replace") as file:
+        with open(path, encoding="utf-8-sig", errors="replace") as file:
             text = file.read()
     except OSError as error:
         raise InputError(f"{path}: error: cannot read the file ({error.strerror})") from error

@@ -15,6 +15,7 @@ NODES_OF = {"SEG2": 2, "SEG3": 3, "SEG4": 4}  # middle nodes stand behind both e
 OTHER_CELLS = re.compile(r"(TRIA|QUAD|TETRA|PENTA|PYRAM|HEXA)\d+")
 ATTRIBUTE = re.compile(r"(NOM|NUMIN|NUMAX|NUMED|NBOBJ|NBLIGE|NBLIGT|AUTEUR|DATE)=")  # of a block, not of its table
 GROUPS = ("GROUP_NO", "GROUP_MA")
+SILENT = ("TITRE",)  # blocks that say nothing about the mesh
 
 
 class Block(NamedTuple):
@@ -33,7 +34,7 @@ class Block(NamedTuple):
 
 def is_aster_mesh(path: str) -> bool:
     """Whether a text file has a table of coordinates as Code_Aster writes it."""
-    with open(path, encoding="utf-8", errors="replace") as file:
+    with open(path, encoding="utf-8-sig", errors="replace") as file:
         return any(line.split()[:1] and line.split()[0] in DIMENSIONS for line in file)
 
 
@@ -52,6 +53,8 @@ def read_aster_mesh(path: str) -> LineMesh:
             groups[block.keyword][name] = members
         elif OTHER_CELLS.fullmatch(block.keyword) or block.keyword == "POI1":
             others[block.keyword] = others.get(block.keyword, 0) + 1
+        elif block.keyword not in (*DIMENSIONS, *NODES_OF, *SILENT):
+            block.fail("a block of a kind that is not known")
     left_behind = describe_split(split) + [f"elements {kind}, which are not lines" for kind in others]
     left_behind.append("sections, materials and orientations: they stand in the command file (.comm)")
     element_sets = pick_members(groups["GROUP_MA"], {place: place for place in range(len(lines))})
@@ -70,12 +73,12 @@ def read_aster_mesh(path: str) -> LineMesh:
 
 def read_blocks(path: str) -> list[Block]:
     """The blocks of a file. InputError without FIN at its end, or with a block that has no FINSF."""
-    with open(path, encoding="utf-8", errors="replace") as file:
+    with open(path, encoding="utf-8-sig", errors="replace") as file:
         text = file.read()
     blocks: list[Block] = []
     is_open = False
     for number, line in enumerate(text.splitlines(), 1):
-        words = re.sub(r"\s*=\s*", "=", line.partition("%")[0]).split()
+        words = re.sub(r"\s*=\s*", "=", line.partition("%")[0].replace(",", " ")).split()
         if not words:
             continue
         if is_open and words == ["FINSF"]:

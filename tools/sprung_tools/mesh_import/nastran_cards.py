@@ -108,7 +108,7 @@ def check_width(path: str, number: int, line: str) -> None:
 def read_lines(path: str) -> list[str]:
     """The lines of a text file. InputError if it cannot be read."""
     try:
-        with open(path, encoding="utf-8", errors="replace") as file:
+        with open(path, encoding="utf-8-sig", errors="replace") as file:
             return file.read().splitlines()
     except OSError as error:
         raise InputError(f"{path}: error: cannot read the file ({error.strerror})") from error

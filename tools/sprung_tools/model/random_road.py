@@ -22,7 +22,7 @@ def read_random_road(results: ResultsFile) -> dict[str, Any]:
         read_texts(file, name) if file.has_dataset(name) else [] for name in ("model/run_text", "model/overrides")
     )
     try:
-        road = tomllib.loads("\n".join(texts)).get("road", {})
+        road = tomllib.loads("\n".join(texts).removeprefix("\ufeff")).get("road", {})
     except tomllib.TOMLDecodeError:
         road = {}
     for one in overrides:

@@ -35,7 +35,7 @@ class Variant(NamedTuple):
 def make_variant(design: Path, changes: Mapping[str, Any], folder: Path) -> Variant:
     """A design with some keys changed. folder: that of all variants. InputError if a key leads nowhere."""
     file = TomlFile(design)
-    text = design.read_text(encoding="utf-8")
+    text = design.read_text(encoding="utf-8-sig")
     for key, value in changes.items():
         set_value(file.data, key, value, design)
     files, is_moved = take_files(file.data, design)
