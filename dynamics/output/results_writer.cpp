@@ -14,6 +14,7 @@ constexpr std::int64_t kResultsVersion = 2;
 
 constexpr std::size_t kMostBuffered = std::size_t{1} << 28U;  // bytes of rows that are not written yet
 constexpr std::size_t kRowsAtOnce = 1024;                     // whole chunks of most histories
+constexpr double kSameOutput = 1e-9;                          // in outputs: times that differ by rounding
 
 support::Hdf5Precision to_hdf5(StoredPrecision precision) {
   if (precision == StoredPrecision::kDouble) return support::Hdf5Precision::kDouble;
@@ -87,6 +88,7 @@ void ResultsWriter::write_descriptions(const ResultsHeader& header) {
 // Makes the datasets of the histories that are stored.
 void ResultsWriter::make_datasets(const ResultsHeader& header) {
   storage_ = std::make_unique<StoragePlan>(plan_storage(header, histories_));
+  num_outputs_ = static_cast<std::size_t>(count_outputs(header) + kSameOutput);
   std::size_t row_size = 0;  // of all that is stored
   for (const History& history : histories_.all()) {
     const long every = storage_->every(history);
@@ -99,21 +101,24 @@ void ResultsWriter::make_datasets(const ResultsHeader& header) {
     const History& history = *stored.history;
     stored.dataset = &file_.make_growing(
         history.name, history.columns, history.unit, to_hdf5(storage_->precision(history)),
-        {.number = stored.num_rows(static_cast<std::size_t>(count_outputs(header))),
-         .most_per_chunk = most_rows});
+        {.number = count_rows(stored.every, num_outputs_), .most_per_chunk = most_rows});
     if (!history.role.empty()) file_.attribute(history.name, "role", history.role);
     if (stored.every > 1) file_.attribute(history.name, "every", std::int64_t{stored.every});
   }
 }
 
-std::size_t ResultsWriter::Stored::num_rows(std::size_t num_outputs) const {
+// The first output, every `every`-th from there, and the last one of the run have rows.
+// @param num_outputs  so far
+std::size_t ResultsWriter::count_rows(long every, std::size_t num_outputs) const {
   const auto step = static_cast<std::size_t>(every);
-  return (num_outputs + step - 1) / step;
+  const bool has_last = num_outputs == num_outputs_ && num_outputs % step != 1 % step;
+  return (num_outputs + step - 1) / step + (has_last ? 1 : 0);
 }
 
 void ResultsWriter::add(const Snapshot& snapshot) {
+  const bool is_last = extent_.rows + 1 == num_outputs_;
   for (Stored& stored : stored_) {
-    if (stored.until > 0) {
+    if (stored.until > 0 && !is_last) {
       --stored.until;
       continue;
     }
@@ -151,8 +156,9 @@ void ResultsWriter::take_over(const PartialResults& partial, const ResultsExtent
                               const Checkpoint& checkpoint) {
   const support::Hdf5Reader& earlier = partial.file();
   for (Stored& stored : stored_) {
-    const std::size_t rows = stored.num_rows(extent.rows);
-    stored.until = rows * static_cast<std::size_t>(stored.every) - extent.rows;
+    const std::size_t rows = count_rows(stored.every, extent.rows);
+    const auto step = static_cast<std::size_t>(stored.every);
+    stored.until = (step - extent.rows % step) % step;
     for (std::size_t row = 0; row < rows; row += kRowsAtOnce) {
       file_.append(*stored.dataset,
                    earlier.real_rows(stored.history->name, row, std::min(kRowsAtOnce, rows - row)));

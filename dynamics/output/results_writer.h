@@ -97,11 +97,11 @@ class ResultsWriter {
     long every;             // outputs from one row to the next
     std::size_t until = 0;  // outputs before its next row
     support::Hdf5GrowingDataset* dataset = nullptr;
-    std::size_t num_rows(std::size_t num_outputs) const;
   };
 
   void write_descriptions(const ResultsHeader& header);
   void make_datasets(const ResultsHeader& header);
+  std::size_t count_rows(long every, std::size_t num_outputs) const;
   void make_event_datasets(const Model& full);
 
   support::Hdf5Writer file_;
@@ -111,6 +111,7 @@ class ResultsWriter {
   support::Hdf5GrowingDataset *event_time_ = nullptr, *event_kind_ = nullptr, *event_object_ = nullptr,
                               *event_text_ = nullptr;
   std::unique_ptr<StoragePlan> storage_;
+  std::size_t num_outputs_ = 0;  // of the whole run
   State last_;  // at the last output; of a run that is resumed, before its first one at the checkpoint
   ResultsExtent extent_;
   bool has_checkpoint_ = false;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kBytesOfDouble = 8.0;
 constexpr double kBytesOfSingle = 2.9,
-                 kBytesOfRounded = 2.4;     // compressed, measured on vehicles on rough roads
-constexpr double kBytesOfDataset = 2000.0;  // of HDF5's own, measured
-constexpr double kCoarseStep = 0.01;        // s
+                 kBytesOfRounded = 2.4;    // compressed, measured on vehicles on rough roads
+constexpr double kBytesOfDataset = 800.0;  // of HDF5's own, measured
+constexpr double kCoarseStep = 0.01;       // s
 constexpr double kMegabyte = 1e6;
 
 }  // namespace

@@ -176,7 +176,7 @@ class Results:
             for name in file.names(path) if path.count("/") < DEEPEST else ():
                 self._collect(f"{path}/{name}", found)
             return
-        if shape[:1] != (-(-self.time.size // file.every(path)),):
+        if shape[:1] != (file.count_rows(path, file.every(path), self.time.size),):
             return
         if len(shape) == 1:
             found.append(path)

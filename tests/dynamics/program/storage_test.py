@@ -77,6 +77,20 @@ class Storage(DynamicsTestCase):
         with self.assertRaisesRegex(InputError, "'forces/front_tyre/force' is stored every 5 ms only"):
             small.check_every_output("forces/front_tyre/force")
 
+    def test_a_history_of_coarse_steps_reaches_to_the_end_of_the_run(self):
+        self.run_with("all.h5", "output.precision=double", "output.size=1000")
+        self.run_with("coarse.h5", "output.precision=double", "output.step.forces=0.007")
+        whole, coarse = self.open("all.h5"), self.open("coarse.h5")
+        exact, found = (one.series("forces/front_tyre/force")[0] for one in (whole, coarse))
+        last = exact.size - 1
+        self.assertNotEqual(last % 7, 0)
+        self.assertEqual(coarse.file.shape("forces/front_tyre/force"), (last // 7 + 2,))
+        self.assertEqual(found[[0, 7, last]].tolist(), exact[[0, 7, last]].tolist())
+        # Between the last two rows the values lie on a line.
+        rows = np.arange(last // 7 * 7, last + 1)
+        np.testing.assert_allclose(found[rows], np.interp(rows, rows[[0, -1]], exact[rows[[0, -1]]]), rtol=1e-12)
+        self.assertGreater(rows.size, 2)
+
     def test_the_size_of_the_file_is_said_and_kept(self):
         said = self.run_with("small.h5", "output.size=0.7", verbose=True)
         self.assertRegex(said, r"Results: about 0\.\d+ MB; for output\.size = 0\.7 MB: only points of the summary .*; "
@@ -108,8 +122,13 @@ class Storage(DynamicsTestCase):
         rows = 101  # of the last run, which begins after 0.5 s
         with h5py.File(self.folder / "whole.h5") as file:
             self.assertEqual(file["time"].size, rows)
-        histories = (self.folder / "whole.h5").stat().st_size - NO_HISTORIES
-        self.assertAlmostEqual(dry["size"] / histories, 1.0, delta=0.1)
+        # The histories alone: what a file has more than one in which none of these groups is stored.
+        groups = ("points", "bodies", "joints", "forces", "wrenches", "recovery")
+        nothing = "output.store={" + ", ".join(f'{group}="none"' for group in groups) + "}"
+        words += ["--set", nothing]
+        rest = json.loads(self.run_program(*words, "--json", "-o", "rest.h5").stdout)["storage"]
+        size, size_of_rest = ((self.folder / name).stat().st_size for name in ("whole.h5", "rest.h5"))
+        self.assertAlmostEqual((dry["size"] - rest["size"]) / (size - size_of_rest), 1.0, delta=0.1)
 
     def test_a_file_has_no_space_for_more_rows(self):
         """The last chunk of double precision is stored whole: a run with 1101 rows had space for 2048."""

@@ -131,7 +131,7 @@ class StoredFile:
         if found and rule:
             shape = [self._resolve(name, size, found.names) for size in rule.shape]
             if every > 1 and shape[0] is not None:
-                shape[0] = -(-shape[0] // every)
+                shape[0] = self.count_rows(name, every, shape[0])
             self._check_shape(name, dataset, tuple(shape))
         self._check_size(name, dataset)
         with reading(self.filename, f"dataset '{name}'"):
@@ -145,6 +145,13 @@ class StoredFile:
         if found and rule and rule.within is not None:
             self._check_indices(name, values, self._resolve(name, rule.within, found.names))
         return values, self.attribute(name, "unit", str, "")
+
+    def count_rows(self, name: str, every: int, count: int) -> int:
+        """The rows that a history of `count` outputs has if it is stored at each `every`-th and the last one; files of
+        earlier versions do not have the last one."""
+        rows = -(-count // every)
+        is_extra = (count - 1) % every != 0
+        return rows + 1 if is_extra and (self.shape(name) or (0,))[0] == rows + 1 else rows
 
     def every(self, name: str) -> int:
         """The number of outputs from one stored row of a history to the next. 1 for a history that is not stored."""
@@ -253,13 +260,17 @@ class StoredFile:
 
 
 def interpolate_rows(values: Floats, every: int, count: int) -> Floats:
-    """Values at `count` outputs from those at each `every`-th; behind the last one they stay as they are."""
+    """Values at `count` outputs from those at each `every`-th and at the last one; in files that do not have it, they
+    stay as they are behind the one before."""
     if len(values) == 0:
         return values
     at = np.arange(count)
+    stored = np.minimum(every * np.arange(len(values)), count - 1)
     before = np.minimum(at // every, len(values) - 1)
     after = np.minimum(before + 1, len(values) - 1)
-    share = ((at - before * every) / every).reshape(-1, *(1,) * (values.ndim - 1))
+    share = ((at - stored[before]) / np.maximum(stored[after] - stored[before], 1)).reshape(
+        -1, *(1,) * (values.ndim - 1)
+    )
     interpolated: Floats = values[before] + share * (values[after] - values[before])
     return interpolated
 
