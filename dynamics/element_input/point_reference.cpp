@@ -7,14 +7,6 @@
 
 namespace sprung::dynamics {
 
-namespace {
-
-bool is_name_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-}
-
-}  // namespace
-
 PointReference read_point(const support::TomlValue& value) {
   const std::string& name = value.string();
   const std::size_t dot = name.find('.');
@@ -51,7 +43,7 @@ std::string body_of_point(const std::string& point_name) {
 }
 
 void check_name(const std::string& name, const std::string& what, const support::SourceLocation& location) {
-  if (!name.empty() && std::all_of(name.begin(), name.end(), is_name_character)) return;
+  if (support::is_plain_name(name)) return;
   throw support::InputError(
       location,
       fmt::format("the name of a {} must be letters, digits, '_' and '-' alone, got '{}'", what, name));

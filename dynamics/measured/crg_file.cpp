@@ -267,8 +267,19 @@ double CrgFile::read_field(std::size_t row, std::size_t channel) const {
       place, fmt::format("a number must stand here, in a field of {} places, got '{}'", width_, text));
 }
 
-// The heading may not change. The one of the first point belongs to no interval.
+// Neither the height nor the heading of the reference line may change. The heading of the first point belongs
+// to no interval.
 void CrgFile::check_straight() const {
+  const double low = parameter_or("REFERENCE_LINE_START_Z", NAN);
+  const double high = parameter_or("REFERENCE_LINE_END_Z", low);
+  if (low != high && !std::isnan(low)) {
+    throw support::InputError(
+        parameters_.at("REFERENCE_LINE_END_Z").location,
+        fmt::format(
+            "'REFERENCE_LINE_END_Z' must be {}, as at the start, got {}: a road that climbs along its "
+            "reference line is not read",
+            low, high));
+  }
   const double start = parameter_or("REFERENCE_LINE_START_PHI", NAN);
   double heading = start, end = parameter_or("REFERENCE_LINE_END_PHI", start);
   const auto turns = [](double a, double b) { return std::abs(a - b) > kSameHeading; };

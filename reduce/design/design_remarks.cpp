@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/support/errors/input_error.h"
 #include "tools/support/toml/toml.h"
 
 namespace sprung::reduce {
@@ -116,6 +117,12 @@ std::vector<std::string> list_design_remarks(const Design& design) {
   }
   if (extent > kLongest) {
     remarks.push_back(fmt::format("the frame is {:.4g} m long; lengths are in m, not in mm", extent));
+  }
+  if (const std::optional<support::TomlTable> points = document.root().find_table("points")) {
+    for (const auto& [name, point] : points->entries()) {
+      if (!support::is_plain_name(name))
+        remarks.push_back(fmt::format("no vehicle can name the point '{}': {}", name, kPlainNames));
+    }
   }
   const bool joins_otherwise = document.root().has("foundations") || !design.model.couplings.empty();
   if (!joins_otherwise) remark_on_touching(design.model.mesh, remarks);

@@ -120,6 +120,10 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   report(options, fmt::format("{}: building from {} ({})", output.string(), design.string(), reason));
   support::ProgressBar progress(output.filename().string(), options.quiet);
   const Design read = read_design({design, options.overrides});
+  if (!support::is_plain_name(output.stem().string())) {
+    report(options, fmt::format("{}: remark: no vehicle can name the superelement '{}': {}", design.string(),
+                                output.stem().string(), kPlainNames));
+  }
   for (const std::string& remark : list_design_remarks(read))
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
   for (const std::string& remark : read.matrices ? read.matrices->remarks : std::vector<std::string>{})

@@ -95,6 +95,10 @@ TEST_CASE("Roads that are not straight and level along the reference line are re
         "road.crg:11:1: error: 'REFERENCE_LINE_START_S' must be 0, got 0.02: a road that climbs or is banked "
         "along "
         "its reference line is not read");
+  CHECK(
+      error_of(kParameters + "REFERENCE_LINE_START_Z = 1.5\nREFERENCE_LINE_END_Z = 3\n") ==
+      "road.crg:12:1: error: 'REFERENCE_LINE_END_Z' must be 1.5, as at the start, got 3: a road that climbs "
+      "along its reference line is not read");
   CHECK(error_of(kParameters + "REFERENCE_LINE_START_PHI = 0\nREFERENCE_LINE_END_PHI = 0.5\n") ==
         "road.crg: error: turns from 0 to 0.5 rad along its reference line; only straight roads are read");
   const std::string turning =

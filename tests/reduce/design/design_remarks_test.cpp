@@ -28,6 +28,19 @@ TEST_CASE("Steel in SI units calls for no remark") {
   CHECK(remarks_on("2.1e11", "7850", 6.0).empty());
 }
 
+TEST_CASE("Points that no vehicle can name are remarked on") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "beam.toml",
+              "[materials.steel]\nyoungs_modulus = 2.1e11\ndensity = 7850\n[sections.bar]\nmaterial = "
+              "\"steel\"\narea = 0.01\nsecond_moment = 1e-5\n[points]\na = [0, 0]\n\"b 1.é\" = [6.0, "
+              "0]\n[[lines]]\nthrough = [\"a\", \"b 1.é\"]\nsection = \"bar\"\nelements = "
+              "2\n[reference]\npoint = \"a\"\n[modes]\ncount = 1\ndamping_ratio = 0.01\n");
+  CHECK(
+      reduce::list_design_remarks(reduce::read_design(folder / "beam.toml")) ==
+      std::vector<std::string>{"no vehicle can name the point 'b 1.é': names in it are letters, digits, '_' "
+                               "and '-' alone"});
+}
+
 TEST_CASE("Moduli, densities and lengths in other units are remarked on") {
   CHECK(remarks_on("210000", "7850", 6.0) ==
         std::vector<std::string>{

@@ -184,7 +184,8 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument(
         "--points", nargs="+", metavar="BODY.POINT", default=(),
         help="points whose vibration is judged, BODY.center_of_mass for a centre of mass (default: of a run the seats "
-        "and the centres of mass of their bodies; of a response all points in its file, origins of axles too)",
+        "and the centres of mass of their bodies, without a seat those of all bodies; of a response all points in its "
+        "file, origins of axles too)",
     )  # fmt: skip
     parser.add_argument("--from", dest="start", type=float, metavar="S", help="judge from this time, s")
     parser.add_argument("--to", dest="end", type=float, metavar="S", help="judge up to this time, s")

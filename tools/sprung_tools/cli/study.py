@@ -76,7 +76,8 @@ def format_effects(effects: list[Effect]) -> str:
     unknown = list(dict.fromkeys(one.parameter for one in effects if one.share is None))
     weak = sum(one.share is not None and not one.is_seen for one in effects)
     if len(seen) > MOST_SHOWN:
-        text.append(f"remark: {len(seen) - MOST_SHOWN} smaller effects are on the page only")
+        others = len(seen) - MOST_SHOWN
+        text.append(f"remark: {others} smaller effect{' is' if others == 1 else 's are'} on the page only")
     if weak:
         text.append(f"remark: {weak} other effects explain no more than chance, or less than {100.0 * LEAST_SEEN:g} %")
     if unknown:

@@ -49,6 +49,13 @@ std::string format_place(const SourceLocation& where) {
 InputError::InputError(const SourceLocation& where, std::string_view message)
     : std::runtime_error(format_message(where, message)) {}
 
+bool is_plain_name(std::string_view name) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return !name.empty() && std::all_of(name.begin(), name.end(), is_plain);
+}
+
 std::string find_nearest_name(std::string_view name, std::span<const std::string> candidates) {
   std::string nearest;
   std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;

@@ -27,6 +27,9 @@ class InputError : public std::runtime_error {
   InputError(const SourceLocation& where, std::string_view message);
 };
 
+/// Whether a name consists of letters, digits, '_' and '-' alone, as those in a vehicle do.
+bool is_plain_name(std::string_view name);
+
 /// The candidate that is spelt most like `name`; "" if none is similar.
 std::string find_nearest_name(std::string_view name, std::span<const std::string> candidates);
 
