@@ -44,7 +44,7 @@ StoragePlan make_plan(const OutputSettings& settings) {
 }
 
 // A column of 10,001 rows in each precision, and what HDF5 takes for a dataset [MB].
-constexpr double kOfDouble = 0.080008, kOfSingle = 0.0290029, kOfRounded = 0.0240024, kOfDataset = 0.002;
+constexpr double kOfDouble = 0.080008, kOfSingle = 0.0290029, kOfRounded = 0.0240024, kOfDataset = 0.0008;
 
 }  // namespace
 
