@@ -291,7 +291,7 @@ class LinearBending(VerificationCase):
 
     def run_crank(self, speed, stiffening=False):
         run = 'start = "as-given"\nduration = 3.0\noutput_step = 0.01\n[modes]\nrod = 4\n[stiffening]\nrod = '
-        run += f"{str(stiffening).lower()}\n"
+        run += f"{str(stiffening).lower()}\n[initial.rod]\nvelocity = [0.0, 0.0]\n"  # so the start is that of a hit
         results = self.run_text(CRANK.replace("SPEED", str(speed)), run)
         return results.summary, np.max(np.abs(results["points/rod.tip/deflection"][:, 1]))
 
