@@ -84,8 +84,9 @@ BodyBending::BodyBending(const Body& body, const reduce::Superelement& superelem
   geometric_ = make_geometric(body, *superelement.geometric_stiffness, loads);
   present_ = Eigen::VectorXd::Zero(geometric_.rows());
   half_ = Eigen::VectorXd::Zero(std::lround(std::sqrt(static_cast<double>(geometric_.rows()))));
-  strain_ = affected_ = worked_on_ = half_;
   stiffness_ = body.stiffness.diagonal().head(half_.size());
+  if (half_.size() > 0) averaging_time_ = 2.0 / std::sqrt(stiffness_[0] / body.modal_mass[0]);
+  now_ = Eigen::VectorXd::Zero(1 + 3 * half_.size());
 }
 
 void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd& q) {
@@ -101,16 +102,33 @@ void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd
   support::multiply(geometric_, loads.coefficients().data(), present_.data());
   const Eigen::Map<const Eigen::MatrixXd> K_G(present_.data(), m, m);
   half_.noalias() = K_G * eta.head(m);
-  stiffening_ += eta.head(m).dot(half_);
-  strain_.array() += stiffness_.array() * eta.head(m).array().square();
-  affected_.array() += K_G.diagonal().array().abs() / stiffness_.array();
-  worked_on_.array() += K_G.diagonal().array().abs() * eta.head(m).array().square();
+  const auto squares = eta.head(m).array().square();
+  now_[0] = eta.head(m).dot(half_);
+  now_.segment(1, m) = stiffness_.array() * squares;
+  now_.segment(1 + m, m) = K_G.diagonal().array().abs() / stiffness_.array();
+  now_.tail(m) = K_G.diagonal().array().abs() * squares;
+  add_to_means(time);
+}
+
+void BodyBending::add_to_means(double time) {
+  if (averaged_.size() == 0) {
+    once_ = averaged_ = now_;
+  } else {
+    const double share = -std::expm1((time_ - time) / averaging_time_);
+    once_ += share * (now_ - once_);
+    averaged_ += share * (once_ - averaged_);
+  }
+  time_ = time;
+  const Eigen::Index m = half_.size();
+  const auto affected = averaged_.segment(1 + m, m);
+  const double least = kUnaffected * find_middle(affected, averaged_.tail(m));
+  const double strain = (affected.array() >= least).select(averaged_.segment(1, m), 0.0).sum();
+  largest_work_ = std::max(largest_work_, std::abs(averaged_[0]));
+  largest_strain_ = std::max(largest_strain_, strain);
 }
 
 double BodyBending::axial_effect() const {
-  const double least = kUnaffected * find_middle(affected_, worked_on_);
-  const double strain = (affected_.array() >= least).select(strain_, 0.0).sum();
-  return deflection_share() > kNoDeflection && strain > 0.0 ? std::abs(stiffening_) / strain : 0.0;
+  return deflection_share() > kNoDeflection && largest_strain_ > 0.0 ? largest_work_ / largest_strain_ : 0.0;
 }
 
 }  // namespace sprung::dynamics

@@ -20,7 +20,7 @@ class BodyBending {
   BodyBending(const Body& body, const reduce::Superelement& superelement, const BodyLoads& loads);
 
   const std::string& name() const { return name_; }
-  /// @param loads  at this time   @param q  of the model
+  /// @param time   not before that of the last call [s]   @param loads  at this time   @param q  of the model
   void add(double time, const BodyLoads& loads, const Eigen::VectorXd& q);
 
   double deflection_share() const { return deflection_.value / length_; }
@@ -33,16 +33,19 @@ class BodyBending {
   static void transfer(Bytes& bytes, Bending& bending) {
     bytes.transfer(bending.deflection_.value);
     bytes.transfer(bending.deflection_.time);
-    bytes.transfer(bending.stiffening_);
-    bytes.transfer(bending.strain_);
-    bytes.transfer(bending.affected_);
-    bytes.transfer(bending.worked_on_);
+    bytes.transfer(bending.time_);
+    bytes.transfer(bending.once_);
+    bytes.transfer(bending.averaged_);
+    bytes.transfer(bending.largest_work_);
+    bytes.transfer(bending.largest_strain_);
   }
 
  private:
   struct Peak {
     double value = 0.0, time = 0.0;
   };
+
+  void add_to_means(double time);
 
   std::string name_;
   int first_, num_modes_;
@@ -53,10 +56,12 @@ class BodyBending {
   Eigen::VectorXd displacement_;    // 2N
   Eigen::VectorXd present_, half_;  // K_G, m²; K_G η, m
   Peak deflection_;                 // [m]
-  double stiffening_ = 0.0;         // sum of ηᵀK_Gη over the outputs [J]
-  // Of each of the lowest m modes: sums of Kη² [J], of the share of K by which axial forces change it, and of
-  // |K_G| η² [J].
-  Eigen::VectorXd strain_, affected_, worked_on_;
+  double averaging_time_ = 0.0;     // [s]
+  double time_ = 0.0;               // of the last output [s]
+  // ηᵀK_Gη [J], then of each of the lowest m modes: Kη² [J], the share of K by which axial forces change it,
+  // and |K_G| η² [J]. Now, after one low-pass filter, and after two: empty before the first output.
+  Eigen::VectorXd now_, once_, averaged_;
+  double largest_work_ = 0.0, largest_strain_ = 0.0;  // of the means over a short time [J]
 };
 
 }  // namespace sprung::dynamics
