@@ -1,14 +1,12 @@
 """tools/report without a browser: the data of the page against the results, and the errors. report_page_test.py tests
-what the page draws. Some cases are of whole runs, which need sprung-dynamics (SPRUNG_DYNAMICS)."""
+what the page draws."""
 
-import base64
-import json
 import os
-import re
 import unittest
 
 import h5py
 import numpy as np
+from report_case import ReportCase, decode, read_page
 from synthetic_results import (
     HEAVE,
     NUM_SAMPLES,
@@ -18,39 +16,16 @@ from synthetic_results import (
     write_superelement,
     write_texts,
 )
-from tool_test_case import ROOT, ToolTestCase, run_program
+from tool_test_case import ToolTestCase
 
 from sprung_tools.report.packing import find_kept
-from sprung_tools.report.page import make_small_page
-from sprung_tools.runs.labelled_runs import open_runs
 
 
-def decode(text):
-    return np.frombuffer(base64.b64decode(text), dtype="<f4")
-
-
-def find_data(text):
-    """The data in a page's text."""
-    return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
-
-
-def read_page(path):
-    """The page's text and its data."""
-    text = path.read_text(encoding="utf-8")
-    return text, find_data(text)
-
-
-class Report(ToolTestCase):
+class Report(ReportCase):
     def setUp(self):
         super().setUp()
         write_results(self.folder / "rigid.h5", num_modes=0)
         write_results(self.folder / "soft.h5", scale=2.0, overrides=("modes.chassis=2",))
-
-    def report(self, *arguments):
-        process = self.run_tool("report", *arguments, "-o", "page.html")
-        self.assert_succeeds(process)
-        self.assertIn(f"Open it in a browser: {(self.folder / 'page.html').resolve().as_uri()}", process.stdout)
-        return read_page(self.folder / "page.html")
 
     def test_it_stands_alone(self):
         text, _ = self.report("rigid.h5")
@@ -183,87 +158,6 @@ class Report(ToolTestCase):
     def test_one_file_twice_has_two_names(self):
         _, data = self.report("rigid.h5", "rigid.h5")
         self.assertEqual(len({run["label"] for run in data["runs"]}), 2)
-
-    def drive(self, example, output, *arguments):
-        command = [os.environ["SPRUNG_DYNAMICS"], "run", ROOT / f"dynamics/models/examples/{example}_run.toml"]
-        run_program([*command, *arguments, "-o", output, "--quiet"], cwd=self.folder, check=True)
-
-    def read_rows(self, data, of):
-        return {row["name"]: row["value"] for row in data["runs"][0]["statistics"] if row["of"] == of}
-
-    def test_a_mechanism_is_shown_along_the_axis_that_moves(self):
-        self.drive("slider_crank", "slider.h5")  # a crank of 0.05 m: the piston moves 0.1 m along x, and not along y
-        _, data = self.report("slider.h5")
-        rows, channels = self.read_rows(data, "piston.origin"), data["runs"][0]["channels"]
-        self.assertEqual({name.partition(",")[0] for name in rows}, {"displacement along x", "acceleration along x"})
-        self.assertAlmostEqual(rows["displacement along x, lowest"], -0.1, places=4)
-        self.assertEqual(rows["displacement along x, highest"], 0.0)  # from the start, its outermost place
-        shown = [one["name"] for one in channels if one["group"] == "Motion of points"]
-        self.assertEqual(shown, ["piston.origin, position along x", "piston.origin, acceleration along x"])
-        self.assertEqual([one["name"] for one in data["runs"][0]["spectra"]], ["piston.origin along x"])
-        acceleration = decode(channels[1]["v"])
-        for name, value in (("highest", acceleration.max()), ("lowest", acceleration.min())):
-            self.assertAlmostEqual(rows[f"acceleration along x, {name}"], float(value), places=4)
-
-    def test_of_a_mechanism_that_moves_both_ways_the_larger_one_comes_first(self):
-        self.drive("four_bar", "bars.h5")
-        _, data = self.report("bars.h5")
-        names = [one["name"] for one in data["runs"][0]["channels"] if one["group"] == "Motion of points"]
-        ranges = [np.ptp(decode(one["v"])) for one in data["runs"][0]["channels"] if "position along" in one["name"]]
-        self.assertEqual({name.split()[-1] for name in names}, {"x", "y"})
-        self.assertGreater(ranges[0], ranges[1])
-        self.assertTrue(names[0].startswith("coupler.middle, position along "))
-
-    def test_runs_on_a_road_and_on_a_rig_are_shown_side_by_side(self):
-        vehicle = (ROOT / "dynamics/models/examples/quarter_car.toml").read_text(encoding="utf-8")
-        vehicle, _, _ = vehicle.partition('[[forces]]\nname = "tyre"')
-        vehicle = vehicle.replace("[0.0, 5.0] }", "[0.0] }")  # the rig shakes the wheel, and stands
-        shaker = "harmonic = { amplitude = 0.02, frequency = 2.0 }"
-        vehicle += f'[[motions]]\nname = "shaker"\njoint = "wheel_slide"\nfunction = {{ {shaker} }}\n'
-        (self.folder / "rig.toml").write_text(vehicle, encoding="utf-8")
-        run = self.folder / "rig_run.toml"
-        run.write_text('vehicle = "rig.toml"\nduration = 1.0\n', encoding="utf-8")
-        self.drive("quarter_car", "road.h5", "--set", "duration=1.0")
-        run_program([os.environ["SPRUNG_DYNAMICS"], "run", run, "-o", "rig.h5", "--quiet"], cwd=self.folder, check=True)
-        _, data = self.report("road.h5", "rig.h5")
-        shown = [[one["name"] for one in run["channels"] if one["group"] == "Vertical motion"] for run in data["runs"]]
-        self.assertEqual(*shown)
-        self.assertIn("sprung.origin, displacement", shown[1])
-        names = [{row["name"] for row in run["statistics"] if row["of"] == "sprung.origin"} for run in data["runs"]]
-        self.assertEqual(*names)
-        self.assertGreaterEqual(len(names[0]), 6)
-
-    def test_rounding_of_a_vehicle_at_rest_is_shown_as_nothing(self):
-        self.drive("quarter_car", "rest.h5", "--set", 'road={shape="flat"}', "--set", "duration=0.5")
-        _, data = self.report("rest.h5")
-        rows = self.read_rows(data, "sprung.origin")
-        self.assertEqual(set(rows.values()), {0.0})
-        self.assertEqual(data["runs"][0]["spectra"], [])
-        for channel in (one for one in data["runs"][0]["channels"] if one["group"] == "Vertical motion"):
-            self.assertFalse(np.any(decode(channel["v"])), channel["name"])
-
-    def test_a_spectrum_holds_the_mean_square_of_a_short_run_wherever_the_bump_lies(self):
-        for duration in ("2", "6"):  # less and more than a segment
-            self.drive("quarter_car", "bump.h5", "--set", f"duration={duration}")  # the bump begins after 0.4 s
-            _, data = self.report("bump.h5")
-            with h5py.File(self.folder / "bump.h5") as file:
-                expected = np.var(file["points/sprung.origin/acceleration"][:, 1])
-            (packed,) = [one for one in data["runs"][0]["spectra"] if one["name"] == "sprung.origin"]
-            frequency, density = decode(packed["f"]), decode(packed["p"])
-            # The lines at 0 Hz and above 200 Hz are not drawn.
-            self.assertAlmostEqual(float(np.sum(density)) * frequency[0] / expected, 1.0, delta=0.02)
-
-    def test_a_page_that_would_be_too_large_is_drawn_by_fewer_samples_with_the_same_numbers(self):
-        self.drive("quarter_car", "car.h5", "--set", "duration=8")
-        runs = open_runs([str(self.folder / "car.h5")])  # 8001 samples
-        self.addCleanup(runs[0].results.file.close)
-        pages = [make_small_page("", runs, [], [], largest) for largest in (15e6, 700e3, 1.0)]
-        self.assertLess(len(pages[1]), 700e3)
-        runs = [find_data(page)["runs"][0] for page in pages]
-        self.assertEqual([run["frames"]["count"] for run in runs], [6000, 1500, 750])
-        self.assertEqual([run["statistics"] for run in runs[1:]], [runs[0]["statistics"]] * 2)
-        peaks = [decode(run["channels"][1]["v"]).max() for run in runs]
-        self.assertEqual(peaks, [peaks[0]] * 3)
 
     def test_thinning_keeps_ends_and_peaks(self):
         values = np.sin(np.arange(60001) * 0.37)

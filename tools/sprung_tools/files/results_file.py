@@ -6,8 +6,9 @@
 
 A *quantity* is written as the file names it (dynamics/output/results.md), with a component:
 `bodies/chassis/position.angle`, `bodies/chassis/center_of_mass/acceleration.y`, `points/chassis.seat/velocity.x`,
-`bodies/chassis/modal/amplitude.2`. A component is x, y, angle or a column's number from 1; quantities with one
-value per sample have none. `displacement` is the position relative to static equilibrium.
+`joints/pin/reaction.torque`, `bodies/chassis/modal/amplitude.2`. A component is x, y, angle, of reactions and of loads
+of force elements x, y, torque, or a column's number from 1; quantities with one value per sample have none.
+`displacement` is the position relative to static equilibrium.
 
 A fault of a file, or a name that it does not hold, is an InputError whose text is `path: error: …`.
 """
@@ -30,7 +31,7 @@ from sprung_tools.files.point_motion import (
 )
 from sprung_tools.files.stored_file import StoredFile, name_group
 
-COMPONENTS = ("x", "y", "angle")
+COMPONENTS, LOAD_COMPONENTS = ("x", "y", "angle"), ("x", "y", "torque")
 MOTION = ("position", "velocity", "acceleration")  # histories of each body
 
 
@@ -48,6 +49,15 @@ def parse_quantity(text: str) -> Quantity:
     name, _, component = last.partition(".")
     from_static = name == "displacement"
     return Quantity(f"{folder}/{'position' if from_static else name}".strip("/"), component, from_static)
+
+
+def list_components(dataset: str, columns: int) -> list[str]:
+    """The names of the components of a history with some columns; none where columns have numbers alone."""
+    group, *_, name = dataset.split("/")
+    if group in ("bodies", "points") and columns in (2, 3) and "/modal/" not in dataset:
+        return list(COMPONENTS[:columns])
+    is_load = (group == "joints" and name.startswith("reaction")) or (group == "forces" and name.startswith("on_"))
+    return list(LOAD_COMPONENTS) if is_load and columns == 3 else []
 
 
 def open_results(path: str | Path) -> "ResultsFile":
@@ -235,12 +245,7 @@ class ResultsFile:
         if values.ndim == 1 and component == "":
             return None
         columns = 1 if values.ndim == 1 else values.shape[1]
-        is_vector = (
-            columns in (2, 3)
-            and wanted.dataset.split("/")[0] in ("bodies", "points")
-            and "/modal/" not in wanted.dataset
-        )
-        known = list(COMPONENTS[:columns]) if is_vector else []
+        known = list_components(wanted.dataset, columns)
         if values.ndim == 2 and component in known:
             return known.index(component)
         if values.ndim == 2 and component.isdecimal() and 1 <= int(component) <= columns:

@@ -29,6 +29,7 @@ from sprung_tools.signals.spectra import calc_whole_spectrum
 MOST_MODES = 8  # modes of a body whose amplitudes are drawn: the largest ones, as many as the page has colours
 SEGMENT = 4.0  # s, the longest segment of the averaged spectra: lines 0.25 Hz apart; a shorter run is one segment long
 HIGHEST_FREQUENCY = 200.0  # Hz drawn
+MOTION = "motion"  # kind of a prescribed motion
 IN_BODY_FRAME = "deflection in the body frame"
 LARGEST_MOMENT, LARGEST_AXIAL = "largest bending moment along it", "largest axial force along it"
 
@@ -69,6 +70,14 @@ def list_channels(
             if name:  # an applied force may have only one of its components
                 unless_zero = channel.role in (GIVEN, TORQUE)
                 add("Forces", f"{force}, {name}", channel.quantity, unless_zero=unless_zero)
+    for name in results.names("joints"):
+        joint = read_element(results, "joints", name)
+        if joint.kind != MOTION:
+            body = joint.points["a"].partition(".")[0]
+            for axis in ("x", "y"):
+                add("Joints", f"{name}, force along {axis} on {body}", f"joints/{name}/reaction.{axis}")
+            add("Joints", f"{name}, torque on {body}", f"joints/{name}/reaction.torque", unless_zero=True)
+        add("Joints", f"{name}, drive", f"joints/{name}/drive")
     for body in find_heavy(results):
         add("Whole vehicle", f"{body}, angle", f"bodies/{body}/position.angle")
         add("Whole vehicle", f"{body}, horizontal velocity", f"bodies/{body}/velocity.x")
