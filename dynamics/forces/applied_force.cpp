@@ -28,6 +28,11 @@ std::vector<const TimeFunction*> AppliedForce::time_functions() const {
   return {&parameters_.force_x, &parameters_.force_y, &parameters_.torque};
 }
 
+std::vector<int> AppliedForce::turned_markers() const {
+  const bool has_torque = !parameters_.torque.is_constant() || parameters_.torque.value(0.0) != 0.0;
+  return has_torque ? markers() : std::vector<int>();
+}
+
 ElementDescription AppliedForce::describe() const {
   const std::string axes = parameters_.axes == Axes::kWorld ? "world" : "following";
   return {.points = {"point"},

@@ -24,6 +24,7 @@ class AppliedForce final : public ForceElement {
 
   std::string_view kind() const override { return "applied"; }
   std::vector<int> markers() const override { return {parameters_.marker}; }
+  std::vector<int> turned_markers() const override;
   ElementDescription describe() const override;
   Power add_wrenches(const Instant& instant, std::span<const int> branches,
                      std::span<Wrench> wrenches) const override;

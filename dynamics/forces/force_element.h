@@ -31,8 +31,10 @@ struct Instant {
 /// A quantity of a force element that changes at a rate of its own, ż = g: a history of its motion (system,
 /// eq. 14). It is zero at rest and scaled so that ½z² is an energy.
 struct InternalState {
-  std::string name;   ///< "relaxation_x"
-  double size = 1.0;  ///< its natural size [J^0.5], or [J^0.5/m] of the model's length scale
+  std::string name;  ///< "relaxation_x"
+  /// Its natural size [J^0.5], or [J^0.5/m] of the model's length scale. Its law is nearly linear over a
+  /// millionth of it, the step of differences (linear).
+  double size = 1.0;
   bool is_per_length = false;
 };
 
@@ -90,7 +92,7 @@ class ForceElement {
   virtual std::string_view kind() const = 0;
   /// The markers that the force depends on or acts on.
   virtual std::vector<int> markers() const = 0;
-  /// Those on which it may exert a torque: all, for an element that has a channel of torque.
+  /// Those on which it may exert a torque: all, for an element with a channel whose role is kTorque.
   virtual std::vector<int> turned_markers() const;
   /// Its points in the order of markers(), and its parameters.
   virtual ElementDescription describe() const = 0;
@@ -109,13 +111,16 @@ class ForceElement {
 
   /// The states whose rates `calc_state_rates` gives.
   virtual std::vector<InternalState> internal_states() const { return {}; }
-  /// @param[out] rates  ż, one for each internal state; zero where markers and states are at rest
+  /// @param[out] rates  ż, one for each internal state; zero where markers and states are at rest, but for
+  /// what
+  ///                    flows until the vehicle has its height
   virtual void calc_state_rates(const Instant& /*instant*/, std::span<const int> /*branches*/,
                                 std::span<double> /*rates*/) const {}
 
   /// The law of its states for random motion about rest, where their own law is far from linear near rest, as
   /// that of friction; none where it is not.
-  /// @param rms  root mean square of each channel; empty: of a motion that is usual for such an element
+  /// @param rms  root mean square of each channel, 0 of contact and road height; empty: of a motion that is
+  ///             usual for such an element
   virtual std::optional<StateLinearisation> linearise_states(const Instant& /*at_rest*/,
                                                              std::span<const int> /*branches*/,
                                                              std::span<const double> /*rms*/) const {

@@ -18,6 +18,7 @@ const std::array<std::string, 3> kStarts{"equilibrium", "steady", "as-given"};  
 
 void read_times(const support::TomlTable& root, Run& run) {
   run.duration = root.number("duration", {.unit = "s", .at_least = kShortestRun});
+  run.duration_location = root.at("duration").location();
   run.output_step = root.number_or("output_step", run.output_step, support::positive("s"));
   const support::SourceLocation where =
       root.has("output_step") ? root.at("output_step").location() : root.at("duration").location();
@@ -260,6 +261,17 @@ ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selec
     all.erase(std::unique(all.begin(), all.end()), all.end());
   }
   return available;
+}
+
+std::string describe_early_end(const Run& run, double start_time) {
+  const double span = run.duration - start_time;
+  const double steps = span / run.output_step, last = std::floor(steps + 1e-9) * run.output_step;
+  if (span - last <= 1e-6 * run.output_step) return {};
+  const std::string rest = start_time > 0.0 ? fmt::format("the rest of {:.9g} s", span) : "the duration";
+  return fmt::format(
+      "{}: the last output is at {:.9g} s, and what the vehicle does up to {:.9g} s is not put out: {} is no "
+      "multiple of the output_step of {:.9g} s",
+      support::format_place(run.duration_location), start_time + last, run.duration, rest, run.output_step);
 }
 
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle) {

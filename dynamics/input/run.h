@@ -68,7 +68,8 @@ struct Run {
   support::SourceLocation vehicle_location;
   double speed = 0.0;  ///< of all bodies along the vehicle's heading at the start [m/s]
   support::SourceLocation speed_location;
-  double duration = 0.0;      ///< time at the end, > 0 [s]
+  double duration = 0.0;  ///< time at the end, > 0 [s]
+  support::SourceLocation duration_location;
   double output_step = 1e-3;  ///< > 0, ≤ duration [s]
   Start start = Start::kEquilibrium;
   support::SourceLocation start_location;
@@ -101,6 +102,10 @@ ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle);
 /// The modes that may become active: those selected and, with adaptivity, the others that are available.
 /// @throws support::InputError as resolve_modes
 ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle);
+
+/// @return why the last output of a run that begins at this time [s] is before its end; "" where it is not
+/// Checked by tests/dynamics/input/run_test.cpp
+std::string describe_early_end(const Run& run, double start_time);
 
 /// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
 /// @throws support::InputError at a reference to a point that the vehicle lacks, or to anything in

@@ -36,9 +36,9 @@ void SmoothPiece::calc_switches(const SystemTerms& terms, std::span<double> valu
 }
 
 double SmoothPiece::calc_longest_step(const SystemTerms& terms, double time) const {
-  const Instant now = terms.instant();
   double longest = model_->time_details.calc_longest_step(time);
-  for (const auto& force : model_->forces) longest = std::min(longest, force->calc_longest_step(now));
+  for (std::size_t f = 0; f < model_->forces.size(); ++f)
+    longest = std::min(longest, model_->forces[f]->calc_longest_step(terms.instant_of(f)));
   if (model_->has_motions) {
     for (const auto& joint : model_->joints) {
       longest = std::min(longest, joint->calc_longest_step(time, model_->length_scale));

@@ -82,7 +82,7 @@ void LinearVehicle::calc_road_wrenches(std::size_t input, const RoadWave& wave,
   for (const int marker : force.markers()) wrenches[static_cast<std::size_t>(marker)] = {};
   channels.setZero(static_cast<Eigen::Index>(force.channels().size()));
   if (!inputs_[input].is_pressed) return;
-  force.add_road_response(equations_.terms().instant(), model().branches_of(f, branches_), wave, wrenches,
+  force.add_road_response(equations_.terms().instant_of(f), model().branches_of(f, branches_), wave, wrenches,
                           {channels.data(), static_cast<std::size_t>(channels.size())});
 }
 

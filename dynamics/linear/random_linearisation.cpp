@@ -80,13 +80,14 @@ std::vector<RandomLinearisation> linearise_for_random_motion(LinearVehicle& vehi
   const LinearOutputs motion = all.pick(rows);
   for (int iteration = 0;; ++iteration) {
     const Eigen::VectorXd rms = calc_root_mean_squares(vehicle, motion, road, speed, range);
+    Eigen::VectorXd of_channels = Eigen::VectorXd::Zero(vehicle.channel_rows().back());
+    for (Eigen::Index i = 0; i < rms.size(); ++i)
+      of_channels[motion.channels[static_cast<std::size_t>(i)]] = rms[i];
     double change = 0.0;
-    Eigen::Index next = 0;
     for (MovingElement& one : elements) {
       const auto count = static_cast<Eigen::Index>(model.forces[one.force]->channels().size());
-      change = std::max(change, one.approach(rms.segment(next, count)));
+      change = std::max(change, one.approach(of_channels.segment(vehicle.channel_rows()[one.force], count)));
       vehicle.set_state_law(one.force, *linearise_states(vehicle, one.force, one.rms));
-      next += count;
     }
     if (change <= kSettled) break;
     if (iteration == kMaxIterations) {

@@ -12,7 +12,10 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kVelocityStep = 1e-3;  // of the differences by velocity, natural sizes per second
+// Of the differences by velocity, natural sizes per second: a law with |v| v, as of an orifice, has a slope
+// of its own at rest, and the difference adds the step times the rate of this slope.
+constexpr double kVelocityStep = 1e-6;
+constexpr double kVelocityReach = 1e-3;  // within which a law may have a kink, natural sizes per second
 
 const Model& model_of(const PartitionedEquations& equations) {
   return equations.terms().model();
@@ -138,7 +141,7 @@ std::vector<Kink> find_kinks(PartitionedEquations& equations, double time,
   }
   if (f > 0) set_shifted_rest(equations, time, q_independent, 0, 0.0, {}, Needed::kForces);
   for (Eigen::Index k = 0; k < f; ++k) {
-    const Eigen::VectorXd velocity = kVelocityStep * scale_of(equations, k) * Eigen::VectorXd::Unit(f, k);
+    const Eigen::VectorXd velocity = kVelocityReach * scale_of(equations, k) * Eigen::VectorXd::Unit(f, k);
     const std::vector<int> forward = set_velocities(equations, velocity, {}, Needed::kForces);
     add_changed(model, forward, set_velocities(equations, -velocity, {}, Needed::kForces), false, kinks);
   }

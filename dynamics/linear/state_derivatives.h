@@ -44,7 +44,7 @@ Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const
                                           const SteadyMotion& motion = {},
                                           Needed needed = Needed::kAccelerations);
 
-/// A force element whose branch changes within the differences above.
+/// A force element whose branch changes within the differences by position, or at velocities near rest.
 struct Kink {
   std::string element;      ///< its name
   bool in_position = true;  ///< false if it changes with the sign of a velocity

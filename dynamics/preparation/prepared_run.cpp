@@ -270,6 +270,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.start = preparation == Preparation::kBalance
                        ? make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates))
                        : find_start_state(q, prepared);
+  if (preparation == Preparation::kRun)
+    report_remark(describe_early_end(prepared.run, prepared.start.time), request, prepared);
   return prepared;
 }
 

@@ -123,7 +123,6 @@ class SystemTerms {
     assert(has(Term::kJointPositions));
     return rotations_[body];
   }
-  Instant instant() const { return {time_, markers()}; }
   /// With the states of force element f; after update_velocities.
   Instant instant_of(std::size_t f) const { return {time_, markers(), model_->states_of(f, v_.data())}; }
 

@@ -17,15 +17,12 @@ import numpy as np
 from tool_test_case import ROOT, ToolTestCase, make_class_folder, run_program
 
 from sprung_tools.files.results_file import open_results
+from sprung_tools.files.hdf5_file import read_text
+from sprung_tools.model.force_channels import ROLES
 from sprung_tools.model.resolved_model import read_elements
 from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
 
 PROGRAM, SUPERELEMENTS = os.environ["SPRUNG_DYNAMICS"], os.environ["SPRUNG_SUPERELEMENTS"]
-JOINTS = {"revolute", "translational", "fixed", "distance", "pin-in-slot", "motion"}
-FORCES = {
-    "spring-damper", "rotational-spring-damper", "applied", "tyre", "hydraulic-stop", "bushing", "leaf-spring",
-    "air-spring",
-}  # fmt: skip
 DATA = ROOT / "tests/tools/data"
 ATTEMPTS = 20  # on a busy machine a run may be at its end before the signal
 
@@ -37,7 +34,10 @@ def read_reference():
     tables = re.findall(r"^\| key \|.*\n\|[-| ]*\n((?:\|.*\n)+)", part, re.MULTILINE)
     cells = [row.split(" |")[0] for table in tables for row in table.splitlines()]
     keys = {key for cell in cells for key in re.findall(r"`(\w+)`", cell)}
-    return keys, set(re.findall(r"^### (?:Joints|Forces): ([a-z-]+)$", part, re.MULTILINE)) - keys
+    return keys, {
+        group: set(re.findall(rf"^### {group.capitalize()}: ([a-z-]+)$", part, re.MULTILINE)) - keys
+        for group in ("joints", "forces")
+    }
 
 
 def list_keys(value):
@@ -81,9 +81,10 @@ class EveryElement(ToolTestCase):
     def test_the_vehicle_has_every_key_of_the_reference(self):
         vehicle = tomllib.loads((DATA / "every_element.toml").read_text(encoding="utf-8"))
         keys, types = read_reference()
-        self.assertGreater(min(len(keys), 10 * len(types)), 80)
+        self.assertGreater(min(len(keys), 10 * sum(map(len, types.values()))), 80)
         self.assertEqual(keys - list_keys(vehicle), set())
-        self.assertEqual(types - {one["type"] for group in ("joints", "forces") for one in vehicle[group]}, set())
+        for group, wanted in types.items():
+            self.assertEqual(wanted - {one["type"] for one in vehicle[group]}, set())
 
     def test_it_has_an_equilibrium_and_modes(self):
         for command, expected in (("equilibrium", "cab_air: gauge pressure"), ("modes", "46 freedoms")):
@@ -110,9 +111,17 @@ class EveryElement(ToolTestCase):
         self.assertEqual(sorted(whole), sorted(found))
         self.assertEqual([name for name in whole if whole[name] != found[name]], [])
 
+    def test_the_tools_know_the_role_of_every_channel(self):
+        results = self.open("rigid.h5")
+        for name in results.names("forces"):
+            for channel in results.file.names(f"forces/{name}"):
+                if not channel.startswith("on_") and channel != "state":
+                    self.assertIn(read_text(results.file, f"forces/{name}/{channel}", "role", ""), ROLES, channel)
+
     def test_ride_and_report_accept_all_of_them(self):
         results = self.open("rigid.h5")
-        for group, kinds in (("joints", JOINTS), ("forces", FORCES)):
+        _, types = read_reference()
+        for group, kinds in (("joints", types["joints"] | {"motion"}), ("forces", types["forces"])):
             self.assertEqual({one.kind for one in read_elements(results, group).values()}, kinds)
         ride = self.run_tool("ride", "rigid.h5", "--superelements", SUPERELEMENTS)
         self.assert_succeeds(ride)

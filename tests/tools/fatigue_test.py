@@ -17,7 +17,7 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.fatigue import calc_fatigue
 from sprung_tools.runs.measures import list_objects, measure_stresses
-from sprung_tools.runs.section_stress import calc_section_stress, list_stressed_bodies
+from sprung_tools.runs.section_stress import calc_section_stress, list_stress_remarks, list_stressed_bodies
 from sprung_tools.signals.fatigue_damage import StrengthLine, calc_damage, calc_range
 from sprung_tools.signals.rainflow import Cycles
 from sprung_tools.study.storage import choose_storage
@@ -111,6 +111,9 @@ class SectionStress(ToolTestCase):
                 file[f"recovery/body/{name}"].attrs["every"] = 2
         with open_results(path) as results, self.assertRaisesRegex(InputError, "is stored every 2 ms only"):
             calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE)
+        with open_results(path) as results:  # as measures they are remarked on
+            (remark,) = list_stress_remarks(results, ["body"])
+        self.assertIn("stresses of 'body' are those of rows every 2 ms", remark)
 
 
 class Fatigue(ToolTestCase):

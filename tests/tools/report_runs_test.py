@@ -12,6 +12,7 @@ from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import open_results
 from sprung_tools.report.page import make_small_page
 from sprung_tools.runs.labelled_runs import open_runs
+from sprung_tools.runs.measures import measure_history
 
 
 class Runs(ReportCase):
@@ -92,6 +93,17 @@ class Runs(ReportCase):
         names = [{row["name"] for row in run["statistics"] if row["of"] == "sprung.origin"} for run in data["runs"]]
         self.assertEqual(*names)
         self.assertGreaterEqual(len(names[0]), 6)
+
+    def test_the_rms_of_a_computed_point_is_that_of_stored_rows(self):
+        # Straight lines between rows of 10 ms would lower it. The origin of the axle moves as its frame does.
+        self.drive("quarter_car", "thin.h5", "--set", "output.size=0.05", "--set", "output.store.points='none'")
+        quantity = "points/unsprung.origin/velocity.y"
+        with open_results(self.folder / "thin.h5") as results:
+            every, end = results.every(quantity), float(results.time[-1])
+            found = measure_history(results, f"histories/{quantity}", (0.0, end))[f"histories/{quantity}/rms"].value
+            rows = results.series("bodies/unsprung/velocity.y")[0][::every]
+        self.assertEqual(every, 10)
+        self.assertAlmostEqual(found / np.sqrt(np.mean(rows**2)), 1.0, places=9)
 
     def test_rounding_of_a_vehicle_at_rest_is_shown_as_nothing(self):
         self.drive("quarter_car", "rest.h5", "--set", 'road={shape="flat"}', "--set", "duration=0.5")

@@ -156,6 +156,16 @@ class QuarterCar(QuarterCarCase):
         with self.assertRaisesRegex(InputError, r"--heights: error: .*radii 0\.4, 0\.5 m, expected radii within 5 %"):
             Wheels(3.0, (0.4, 0.5, 0.5), False).point_radius  # noqa: B018  it throws
 
+    def test_wheels_of_both_kinds_have_no_outline_in_common(self):
+        with self.assertRaisesRegex(InputError, '--heights: error: some wheels have contact = "point" and others'):
+            Wheels(3.0, (0.5,), True).point_radius  # noqa: B018  it throws
+
+    def test_what_the_run_file_stores_does_not_matter(self):
+        obstacles, whole = Obstacles((1.0, 25.0), 15.0, None), self.vehicle()
+        for choice in ("output.store={points='none', bodies='none'}", "output.step={points=0.01, bodies=0.01}"):
+            vehicle = self.vehicle("sprung.origin", choice)
+            self.assertEqual(calc_peak(vehicle, obstacles, 0.1, 6.0), calc_peak(whole, obstacles, 0.1, 6.0))
+
     def test_outputs_are_as_close_as_the_measures_need_whatever_the_run_file_says(self):
         terrain = Terrain(RECIPE, (0.001, 0.2), 6.0)
         fine = calc_power(self.vehicle("sprung.origin", "output_step=5e-4"), terrain, 7.0, 0.01)

@@ -20,6 +20,7 @@ from tool_test_case import ToolTestCase
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.largest_loads import MOMENT, calc_moment_difference, calc_peak, find_best_peak
+from sprung_tools.runs.measures import measure_suspension
 from sprung_tools.runs.ride_measures import (
     calc_comfort,
     calc_contact,
@@ -76,6 +77,15 @@ class RideMeasures(ToolTestCase):
         self.assertEqual(travel.hits, 2)  # the window holds two periods, each once above 0.15 - 0.06 = 0.09 of 0.1 m
         # 0.1 sin > 0.09: 2 · (1/2 - asin(0.9)/π) of each period
         self.assertAlmostEqual(travel.stopped, 2.0 * (0.5 - np.arcsin(0.9) / np.pi), delta=4 * STEP)
+
+    def test_strokes_into_the_rebound_stop_count_by_themselves(self):
+        results = self.open(rebound_stop=STATIC_DEFLECTION - 0.08)
+        travel = calc_travel(results, "suspension", WINDOW)
+        self.assertEqual((travel.hits, travel.rebound_hits), (2, 2))
+        self.assertAlmostEqual(travel.rebound_stopped, 2.0 * (0.5 - np.arcsin(0.8) / np.pi), delta=4 * STEP)
+        self.assertIsNone(calc_travel(results, "link", WINDOW).rebound_hits)
+        self.assertEqual(measure_suspension(results, "suspension", WINDOW)["suspensions/suspension/rebound_stop_hits"],
+                         (2, "1"))  # fmt: skip
 
     def test_the_stop_is_where_the_run_had_it(self):
         self.assertEqual(calc_travel(self.open(stop=0.17), "suspension", WINDOW).hits, 0)
@@ -202,8 +212,8 @@ class Tool(ToolTestCase):
         rows = {line.split()[0]: line.split() for line in process.stdout.splitlines() if "truck" in line}
         self.assertEqual(rows["body.seat"][2:4], ["1.414", "2"])
         self.assertEqual(rows["body.center_of_mass"][2:4], ["0.7069", "1"])
-        self.assertEqual(rows["suspension"][2:], ["100.0", "111", "%", "-100.0", "2", "0.286"])
-        self.assertEqual(rows["link"][2:], ["100.0", "–", "-100.0", "–", "–"])
+        self.assertEqual(rows["suspension"][2:], ["100.0", "111", "%", "-100.0", "2", "0.286", "–", "–"])
+        self.assertEqual(rows["link"][2:], ["100.0", "–", "-100.0", "–", "–", "–", "–"])
         static, dynamic, share, greatest, off_ground, unloaded = map(float, rows["tyre"][2:])
         self.assertEqual((static, greatest, off_ground, unloaded), (50.0, 125.0, 0.41, 0.534))
         self.assertAlmostEqual(1e3 * dynamic / calc_dynamic_load(), 1.0, delta=1e-3)

@@ -17,13 +17,12 @@ SETTINGS = {
     "start": np.bytes_("equilibrium"),
 }  # fmt: skip
 ENDS = {"a": "body.spring", "b": "axle.origin"}
-STOP_UNIT = {"compression_stop_unit": np.bytes_("m")}
 
 
-def write_ride_results(path, with_moments=True, settings=(), stop=STOP):
+def write_ride_results(path, with_moments=True, settings=(), stop=STOP, rebound_stop=None):
     """Writes the file. Deflection: static + 0.1 sin; load: static (1 + 1.5 sin), cut off at 0; moment: at
     the second of three stations, greatest at 2 s: 3 kN·m. The link has no stop. settings: of the resolved
-    model, as a dict; stop: of the suspension [m]. Returns the path."""
+    model, as a dict; stop, rebound_stop: of the suspension [m], None for none. Returns the path."""
     time = STEP * np.arange(round(DURATION / STEP) + 1)
     beat = np.sin(2.0 * np.pi * BEAT * time)
     nothing = np.zeros_like(time)
@@ -42,7 +41,9 @@ def write_ride_results(path, with_moments=True, settings=(), stop=STOP):
             write_series(file, f"forces/{name}/length", 0.5 - STATIC_DEFLECTION - 0.1 * beat, "m")
             for channel, role in (("deflection", "deflection"), ("length", "extent")):
                 file[f"forces/{name}/{channel}"].attrs["role"] = np.bytes_(role)
-            stops = {"compression_stop": stop, **STOP_UNIT} if name == "suspension" else {}
+            stops = {"compression_stop": stop, "rebound_stop": rebound_stop} if name == "suspension" else {}
+            units = {f"{one}_unit": np.bytes_("m") for one in stops}
+            stops = {one: value for one, value in (stops | units).items() if value is not None}
             write_element(file, f"forces/{name}", "spring-damper", "spring", ENDS, stops)
         write_series(file, "forces/tyre/force", load, "N")
         write_series(file, "forces/tyre/contact", (beat > AIRBORNE).astype(float), "1")

@@ -15,6 +15,7 @@ from sprung_tools.signals.ride_weighting import (
     calc_dose,
     calc_running_rms,
     calc_weighting,
+    describe_fault,
     find_fast_size,
     weight_acceleration,
 )
@@ -100,6 +101,10 @@ class Weighting(unittest.TestCase):
     def test_a_transform_has_the_next_size_without_large_prime_factors(self):
         sizes = [*range(1, 400), 25001, 10**6 + 3]
         self.assertEqual([find_fast_size(one) for one in sizes], [next_fast_len(one, real=True) for one in sizes])
+
+    def test_samples_at_the_limit_are_enough_whatever_their_rounding(self):
+        self.assertEqual(describe_fault(0.003125 * (1.0 + 1e-12)), "")
+        self.assertIn("a sample every 3.126 ms is too few", describe_fault(0.003126))
 
     def test_too_few_samples_are_refused(self):
         with self.assertRaisesRegex(ValueError, "a sample every 5 ms is too few"):

@@ -192,6 +192,14 @@ y = {{ spring = {{ polynomial = [0.0, 1e6] }} }}
                     told = [one["text"] for one in warnings if f"chassis.{point} takes loads, but 'x'" in one["text"]]
                     self.assertEqual(bool(told), warns, warnings)
 
+    def test_a_torque_that_is_applied_is_a_load_as_well(self):
+        self.build(good=("= 60.0", "= 60.0"))
+        for torque, warns in (("0.0", False), ("50.0", True), ("{ harmonic = { amplitude = 1.0, frequency = 2.0 } }", True)):
+            vehicle = PUSHED.format(superelement="good", point="rear_spring") + f"torque = {torque}\n"
+            warnings = self.program("run", self.write_model(vehicle, PUSHED_RUN), superelements=self.folder)["warnings"]
+            told = [one["text"] for one in warnings if "chassis.rear_spring takes loads, but 'rotation'" in one["text"]]
+            self.assertEqual(bool(told), warns, warnings)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -24,6 +24,7 @@ from sprung_tools.runs.measures import (
 from sprung_tools.runs.ride_assessment import list_band_remarks, list_remarks
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_warnings
+from sprung_tools.runs.section_stress import list_stress_remarks, list_stressed_bodies
 
 Folder = tempfile.TemporaryDirectory[str]
 SERIES = ("bodies", "energy", "forces", "joints", "points", "recovery")  # the groups of histories
@@ -150,7 +151,8 @@ class Results:
         points, start, end: as of measures()."""
         window = read_window(self._file, start, end)
         judged = find_points(self._file, points)
-        return [*list_remarks(self._file, judged, window), *list_band_remarks(self._file, judged, window)]
+        return [*list_remarks(self._file, judged, window), *list_band_remarks(self._file, judged, window),
+                *list_stress_remarks(self._file, list_stressed_bodies(self._file))]  # fmt: skip
 
     def measure(self, name: str) -> float:
         """One measure over the span of the run's statistics; only its object is computed. InputError if there is no

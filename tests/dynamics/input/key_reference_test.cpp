@@ -1,6 +1,7 @@
 // dynamics/models/README.md, the reference of all input keys, against the keys that the readers ask for, and
 // its examples against the readers.
-#include <fstream>
+#include <fmt/format.h>
+
 #include <map>
 #include <set>
 #include <sstream>
@@ -11,70 +12,16 @@
 #include "dynamics/input/vehicle.h"
 #include "tests/catch.h"
 #include "tests/dynamics/input/input_cases.h"
-#include "tools/support/files/read_text_file.h"
+#include "tests/dynamics/input/reference.h"
+#include "tools/support/errors/input_error.h"
 
 using namespace sprung;
 
 namespace {
 
-using Keys = std::set<std::string>;
-
-// A section of the reference: "### Title", a table of keys, examples.
-struct Section {
-  Keys keys;
-  std::vector<std::string> examples;
-};
-
-struct Reference {
-  std::map<std::string, Section> sections;  // by title
-  std::string vehicle;                      // all examples of "## Vehicle file"
-  std::vector<std::string> runs;            // those of "## Run file"
-};
-
-// The words in backticks of a row's first cell, where the row describes keys (its table has a column
-// "meaning").
-Keys read_row_keys(const std::string& line) {
-  Keys keys;
-  const std::string cell = line.substr(0, line.find(" |", 1));
-  for (std::size_t at = cell.find('`'); at != std::string::npos;) {
-    const std::size_t end = cell.find('`', at + 1);
-    keys.insert(cell.substr(at + 1, end - at - 1));
-    at = cell.find('`', end + 1);
-  }
-  return keys;
-}
-
-Reference read_reference() {
-  Reference reference;
-  std::istringstream text(support::read_text_file(SPRUNG_MODELS "/README.md"));
-  std::string part, title, example;
-  bool in_example = false, in_key_table = false;
-  for (std::string line; std::getline(text, line);) {
-    if (in_example && line == "```") {
-      in_example = false;
-      if (part == "Vehicle file")
-        reference.vehicle += example + "\n";
-      else
-        reference.runs.push_back(example);
-    } else if (in_example) {
-      example += line + "\n";
-    } else if (line == "```toml") {
-      in_example = true;
-      example.clear();
-    } else if (line.starts_with("## ")) {
-      part = line.substr(3);
-    } else if (line.starts_with("### ")) {
-      title = line.substr(4);
-    } else if (line.starts_with("| key |")) {
-      in_key_table = true;
-    } else if (!line.starts_with("|")) {
-      in_key_table = false;
-    } else if (in_key_table && line.starts_with("| `")) {
-      reference.sections[title].keys.merge(read_row_keys(line));
-    }
-  }
-  return reference;
-}
+using test::Keys;
+using test::read_reference;
+using test::Reference;
 
 // "forces.3.spring" → "forces.*.spring": names and positions under lists and tables of free names.
 std::string path_of(const std::string& key) {
@@ -150,6 +97,11 @@ std::string section_of(const std::string& path, const std::string& type) {
   return found == kSections.end() ? "" : found->second;
 }
 
+// Tables whose keys are names.
+const Keys kTablesOfNames{
+    "bodies",  "bodies.*.points", "modes",         "modal_damping", "stiffening", "adaptivity.available",
+    "initial", "joint_rates",     "ground.points", "ground"};
+
 struct Found {
   std::map<std::string, Keys> asked, used;  // by section
 };
@@ -170,7 +122,11 @@ void collect(const support::TomlTable& table, Found& found, const std::string& r
   std::string section = path.empty() ? root_section : section_of(path, type);
   // A run file's [modes] names superelements, not keys.
   if (path == "modes" && root_section == "Vehicle") section = "Quantities that judge";
-  if (section.empty()) return;
+  if (section.empty()) {
+    CAPTURE(path);
+    CHECK(kTablesOfNames.contains(path));
+    return;
+  }
   found.asked[section].insert(asked.begin(), asked.end());
   found.used[section].merge(used);
 }
@@ -180,9 +136,21 @@ void collect(const support::TomlValue& value, Found& found, const std::string& r
   for (const support::TomlValue& item : value.items()) collect(item, found, root_section);
 }
 
+// The words that an error says a key may have: `must be one of "a", "b"; got …`.
+std::vector<std::string> find_allowed(const std::string& message) {
+  std::vector<std::string> words;
+  const std::size_t end = message.find("; got");
+  for (std::size_t at = message.find('"'); at < end; at = message.find('"', at)) {
+    const std::size_t close = message.find('"', at + 1);
+    words.push_back(message.substr(at + 1, close - at - 1));
+    at = close + 1;
+  }
+  return words;
+}
+
 Found read_examples(const Reference& reference) {
   Found found;
-  std::ofstream("drive.csv") << "time [s],x [mm],push [kN]\n0,0,0\n1,5,2\n2,0,0\n";
+  test::write_history();
   const auto vehicle = support::TomlDocument::parse(reference.vehicle, "vehicle example");
   dynamics::read_vehicle(vehicle, test::superelement_folder());
   collect(vehicle.root(), found, "Vehicle");
@@ -197,6 +165,29 @@ Found read_examples(const Reference& reference) {
 }
 
 }  // namespace
+
+TEST_CASE("Every type of joint and of force element has a section of the reference") {
+  const Reference reference = read_reference();
+  for (const auto& [group, title] : {std::pair("joints", "Joints: "), std::pair("forces", "Forces: ")}) {
+    const std::string text = fmt::format(
+        "name = \"none\"\n[bodies.one]\nmass = 1.0\ninertia = 1.0\nposition = [0.0, 0.0]\n"
+        "[[{}]]\nname = \"one\"\ntype = \"none\"\na = \"ground.origin\"\nb = \"one.origin\"\n",
+        group);
+    std::string message;
+    try {
+      dynamics::read_vehicle(support::TomlDocument::parse(text, "vehicle"), "");
+    } catch (const support::InputError& error) {
+      message = error.what();  // names all types
+    }
+    CAPTURE(message);
+    const std::vector<std::string> types = find_allowed(message);
+    CHECK(types.size() > 4);
+    for (const std::string& type : types) {
+      CAPTURE(type);
+      CHECK(reference.sections.contains(title + type));
+    }
+  }
+}
 
 TEST_CASE("The reference names exactly the keys that the program reads, and every one has an example") {
   const Reference reference = read_reference();

@@ -192,6 +192,23 @@ TEST_CASE("Inconsistent times are refused") {
         "runs/first.toml:13:1: error: 'statistics' must end after it begins, got from 4.5 s to 4.5 s");
 }
 
+TEST_CASE("What is run but not put out is said") {
+  const auto describe = [](const std::string& times, double start) {
+    return dynamics::describe_early_end(
+        dynamics::read_run(support::TomlDocument::parse("vehicle = \"v.toml\"\n" + times, "run.toml")),
+        start);
+  };
+  CHECK(describe("duration = 1.0\noutput_step = 0.6\n", 0.0) ==
+        "run.toml:2:12: the last output is at 0.6 s, and what the vehicle does up to 1 s is not put out: the "
+        "duration is no multiple of the output_step of 0.6 s");
+  CHECK(describe("duration = 1.0\noutput_step = 0.6\n", 0.4).empty());
+  CHECK(describe("duration = 1.0\noutput_step = 0.1\n", 0.45).find("last output is at 0.95 s") !=
+        std::string::npos);
+  for (const char* even : {"duration = 13.0\noutput_step = 0.001\n",
+                           "duration = 4.0\noutput_step = 0.003125\n", "duration = 0.3\noutput_step = 0.1\n"})
+    CHECK(describe(even, 0.0).empty());
+}
+
 TEST_CASE("Settings of the integrator out of range are refused") {
   CHECK(error_of("relative_tolerance = 1e-8", "relative_tolerance = 1e-15") ==
         "runs/first.toml:25:22: error: 'integrator.relative_tolerance' must be ≥ 1e-13 and ≤ 0.1, got 1e-15");

@@ -48,7 +48,7 @@ from sprung_tools.runs.ride_measures import (
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
 from sprung_tools.runs.run_warnings import list_doubts
-from sprung_tools.runs.section_stress import FROM_MODES
+from sprung_tools.runs.section_stress import FROM_MODES, list_stress_remarks, list_stressed_bodies
 from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import MISSING, format_cell, format_table
@@ -57,7 +57,8 @@ COMFORT = ("point", "run", "r.m.s. m/s²", "peak m/s²", "Wk r.m.s. m/s²", "VDV
            "Wd fore-aft m/s²", "We pitch rad/s²", "total m/s²", "absorbed W")  # fmt: skip
 LINEAR = ("point", "response", "r.m.s. m/s²", "Wk r.m.s. m/s²", "Wd fore-aft m/s²", "We pitch rad/s²", "total m/s²",
           "absorbed W")  # fmt: skip
-TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "stop hits", "on the stop s")
+TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "stop hits", "on the stop s",
+          "rebound stop hits", "on it s")  # fmt: skip
 CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "greatest kN", "off the ground s",
            "without load s")  # fmt: skip
 BENDING = ("body", "run", "largest moment kN m", "at x m", "at s", "from modes kN m", "largest difference kN m")
@@ -116,9 +117,14 @@ def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[t
             one = calc_travel(run.results, name, window)
             whole = one.whole or 0.0
             share = MISSING if one.compression is None or whole <= 0.0 else f"{100 * one.compression / whole:.0f} %"
-            hits = (MISSING, MISSING) if one.hits is None else (str(one.hits), f"{one.stopped:.3f}")
+            hits = (*format_hits(one.hits, one.stopped), *format_hits(one.rebound_hits, one.rebound_stopped))
             compression, rebound = (format_cell(value, 1, 1e3) for value in (one.compression, one.rebound))
             yield (name, run.label, compression, share, rebound, *hits)
+
+
+def format_hits(hits: int | None, stopped: float) -> tuple[str, str]:
+    """The cells of a stop: how often it was struck, and the time on it [s]."""
+    return (MISSING, MISSING) if hits is None else (str(hits), f"{stopped:.3f}")
 
 
 def make_contact_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
@@ -167,7 +173,8 @@ def make_json(
         packed.append({"label": run.label, "file": run.results.path, **describe_run(run.results, window),
                        "remarks": list_remarks(run.results, judged, window)
                        + list_band_remarks(run.results, judged, window)
-                       + list_moment_remarks(run.results, superelements),
+                       + list_moment_remarks(run.results, superelements)
+                       + list_stress_remarks(run.results, list_stressed_bodies(run.results)),
                        "measures": pack_measures(calc_measures(objects))})  # fmt: skip
     for response in responses:
         packed.append({"label": response.label, "file": response.file.filename, **describe_response(response, points),

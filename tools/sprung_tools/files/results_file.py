@@ -154,7 +154,8 @@ class ResultsFile:
         dataset = parse_quantity(quantity).dataset
         if not self.file.has_dataset(dataset):
             derived = find_derived(self.file, dataset)
-            dataset = f"bodies/{derived.body}/acceleration" if derived else dataset
+            if derived:  # a deflection follows from amplitudes, which are stored as often as positions are
+                dataset = f"bodies/{derived.body}/{'position' if derived.what == 'deflection' else derived.what}"
         return dataset
 
     def every(self, quantity: str) -> int:

@@ -28,9 +28,12 @@ PROBE = 1.0  # s, of the run that tells what the vehicle is: less than any other
 # Relative, of the mean speed. A car with contact = "point" kept it within 0.01 % over terrain and 1 % over obstacles;
 # with contact = "distributed" it lost 4 % over terrain of the limit at 18 m/s, and 32 % at 9 m/s.
 SPEED_TOLERANCE = 0.05
-STORED = {"output.store.points": "reported"} | {
-    f"output.store.{one}": "none" for one in ("recovery", "joints", "wrenches")
-}
+NOT_NEEDED = ("recovery", "joints", "wrenches", "forces")
+# What a run stores, in place of the run file's own choice: the motion of the point at every output.
+STORED = {
+    "output.size": 1000.0, "output.step": {},
+    "output.store": {"points": "reported", "bodies": "all"} | dict.fromkeys(NOT_NEEDED, "none"),
+}  # fmt: skip
 
 
 class Variant(NamedTuple):
@@ -51,9 +54,15 @@ class Wheels(NamedTuple):
     @property
     def point_radius(self) -> float | None:
         """The radius [m] of those whose contact is a point: the mean, if they differ by no more than ALIKE; None where
-        there are none. InputError for radii that differ more."""
+        there are none. InputError for radii that differ more, and where there are wheels of the other kind, too."""
         if not self.point_radii:
             return None
+        if self.has_others:
+            raise InputError(
+                '--heights: error: some wheels have contact = "point" and others contact = "distributed", expected one '
+                "of them: an obstacle has one outline for all, the way of a wheel's centre for the first and its own "
+                'for the second; give all wheels contact = "distributed"'
+            )
         mean = sum(self.point_radii) / len(self.point_radii)
         if self.point_radii[-1] - self.point_radii[0] > ALIKE * mean:
             radii = ", ".join(f"{one:g}" for one in sorted(set(self.point_radii)))
@@ -151,8 +160,8 @@ class Vehicle:
         """Makes a run. InputError for an error of the input; CallFailed for a run that does not come
         to its end, or of which a check failed."""
         # What makes this run comes last: it counts before what a variant changes.
-        settings = {**settings, "statistics.from": 0.0, "statistics.to": settings["duration"]}
-        overrides = [*format_overrides(STORED), *self.variant.overrides, *format_overrides(settings)]
+        settings = {**STORED, **settings, "statistics.from": 0.0, "statistics.to": settings["duration"]}
+        overrides = [*self.variant.overrides, *format_overrides(settings)]
         outcome = call_kept(make_command(self.program, "run", self.run, self.superelements, overrides, output))
         if outcome.exit_code == BAD_INPUT:
             error = name_override(outcome.error, overrides)

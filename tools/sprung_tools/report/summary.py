@@ -134,7 +134,8 @@ def calc_extremes(results: ResultsFile, point: str, what: str, axis: str) -> dic
     if not results.has(f"points/{point}/{stored}.{axis}"):
         return {}
     values, _ = read_motion(results, point, stored, axis)
-    values = (values - values[0] if is_from_start else values)[samples_between(results, *read_window(results))]
+    every = results.every(f"points/{point}/{stored}")
+    values = (values - values[0] if is_from_start else values)[samples_between(results, *read_window(results), every)]
     return {"highest": float(values.max()), "lowest": float(values.min()), "r.m.s.": calc_rms(values)}
 
 

@@ -63,7 +63,8 @@ POINT_UNITS = {
     "rms": "m/s^2", "peak": "m/s^2", "wk_rms": "m/s^2", "vdv": "m/s^1.75", "mtvv": "m/s^2", "crest_factor": "1",
     "wd_rms": "m/s^2", "we_rms": "rad/s^2", "total": "m/s^2", "absorbed_power": "W",
 }  # fmt: skip
-SUSPENSION_UNITS = {"compression": "m", "rebound": "m", "way_to_stop": "m", "stop_hits": "1", "time_on_stop": "s"}
+SUSPENSION_UNITS = {"compression": "m", "rebound": "m", "way_to_stop": "m", "stop_hits": "1", "time_on_stop": "s",
+                    "rebound_stop_hits": "1", "time_on_rebound_stop": "s"}  # fmt: skip
 TYRE_UNITS = {
     "static_load": "N", "greatest_load": "N", "dynamic_load_rms": "N", "time_off_ground": "s", "time_without_load": "s",
 }  # fmt: skip
@@ -184,7 +185,8 @@ def measure_suspension(results: ResultsFile, name: str, window: Span) -> Measure
     """The travel of a suspension."""
     one = calc_travel(results, name, window)
     stopped = None if one.hits is None else one.stopped
-    values = (one.compression, one.rebound, one.whole, one.hits, stopped)
+    rebound_stopped = None if one.rebound_hits is None else one.rebound_stopped
+    values = (one.compression, one.rebound, one.whole, one.hits, stopped, one.rebound_hits, rebound_stopped)
     return combine(f"suspensions/{name}", SUSPENSION_UNITS, values)
 
 

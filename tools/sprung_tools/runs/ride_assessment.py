@@ -24,6 +24,7 @@ from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import (
     LEFT,
     MEMORY,
+    ROUNDING,
     RUNNING,
     SAMPLES_PER_PERIOD,
     WD,
@@ -40,7 +41,6 @@ from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import MEMORY_PERIODS, NOMINAL, calc_third_octaves
 
 PITCH = 0.4  # m/rad
-ROUNDING = 1e-9  # relative, of times
 # Annex C, C.2.3: from, up to [m/s²], words. The ranges overlap.
 REACTIONS = (
     (0.0, 0.315, "not uncomfortable"), (0.315, 0.63, "a little uncomfortable"), (0.5, 1.0, "fairly uncomfortable"),

@@ -40,8 +40,8 @@ class Travel(NamedTuple):
     """How far a suspension moves: largest deflections from balance [m], compression is positive; None where the
     deflection in balance is not known.
 
-    whole: the way from balance to the compression stop [m], None without a stop, too; hits: how often the stop was
-    struck, None without a stop; stopped: the time on it [s].
+    whole: the way from balance to the compression stop [m], None without one, too; hits: how often that stop was
+    struck, None without one; stopped: the time on it [s]; rebound_hits, rebound_stopped: of the rebound stop.
     """
 
     compression: float | None
@@ -49,6 +49,8 @@ class Travel(NamedTuple):
     whole: float | None
     hits: int | None
     stopped: float
+    rebound_hits: int | None
+    rebound_stopped: float
 
 
 class Contact(NamedTuple):
@@ -139,7 +141,7 @@ def find_suspensions(results: ResultsFile) -> dict[str, str]:
 
 
 def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
-    """How far a suspension, named as find_suspensions() does, moves from its balance. The stop counts as struck where a
+    """How far a suspension, named as find_suspensions() does, moves from its balance. A stop counts as struck where a
     sample is beyond it."""
     quantity = find_suspensions(results)[name]
     every = results.every(quantity)
@@ -148,18 +150,26 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
     static = calc_static(results, quantity, deflection, inside)
     element = read_element(results, "forces", quantity.split("/")[1])
     stop = 0.0 if element.kind == END_STOP else element.parameters.get("compression_stop")
+    rebound_stop = element.parameters.get("rebound_stop")
     deflection = deflection[inside]
-    struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
-    hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
+    row_step = every * sampling_step(results)
     # A deflection is a difference of lengths that are some times as large, and has their rounding.
     travel = clear_each(deflection - (static or 0.0), 10.0 * float(np.max(np.abs(deflection))))
     return Travel(
         None if static is None else float(travel.max()),
         None if static is None else float(travel.min()),
         None if stop is None or static is None else stop - static,
-        None if stop is None else hits,
-        float(np.count_nonzero(struck) * every * sampling_step(results)),
+        *count_hits(None if stop is None else deflection > stop, row_step),
+        *count_hits(None if rebound_stop is None else deflection < rebound_stop, row_step),
     )
+
+
+def count_hits(struck: Flags | None, row_step: float) -> tuple[int | None, float]:
+    """How often a stop is struck by samples, and the time on it [s]. struck: of each sample; None without a stop."""
+    if struck is None:
+        return None, 0.0
+    hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
+    return hits, float(np.count_nonzero(struck) * row_step)
 
 
 def calc_static(results: ResultsFile, quantity: str, values: Floats, inside: Flags) -> float | None:

@@ -8,6 +8,7 @@ without those of shear, and without what welds, holes and corners add. The sprin
 too, are elements without a section, A = W = 0, and have no stresses.
 """
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +18,7 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.runs.stations import place_stations
+from sprung_tools.runs.stored_histories import find_row_step
 
 FROM_LOADS, FROM_MODES = "loads", "modes"
 ENDINGS = {FROM_LOADS: "_from_loads", FROM_MODES: ""}  # of the datasets
@@ -93,6 +95,15 @@ def calc_section_stress(results: ResultsFile, body: str, source: str) -> Section
     mean, bending = axial[:, order] / area[order], moment[:, order] / modulus[order]
     sides = [name_sides(*stations[[2 * element, 2 * element + 1]]) for element in order // 2]
     return SectionStress(along, axis, order // 2 + 1, sides, np.stack([mean - bending, mean + bending], axis=-1))
+
+
+def list_stress_remarks(results: ResultsFile, bodies: Iterable[str]) -> list[str]:
+    """That the stresses of bodies are those of few rows, if they are."""
+    return [
+        f"stresses of '{body}' are those of rows every {1e3 * step:g} ms: what lies between is not seen"
+        for body in bodies
+        if (step := find_row_step(results, name_datasets(body, list_sources(results, body)[0])[1])) > 0.0
+    ]
 
 
 def name_sides(first: Floats, second: Floats) -> tuple[str, str]:

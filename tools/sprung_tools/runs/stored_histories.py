@@ -77,9 +77,9 @@ def list_coarse(results: ResultsFile, *, with_resultants: bool = True) -> Iterat
     yield from describe_steps("loads of forces on their bodies", {results.file.every(one) for one in loads}, step)
 
 
-def find_row_step(results: ResultsFile, dataset: str) -> float:
+def find_row_step(results: ResultsFile, quantity: str) -> float:
     """The time between the stored rows of a history that is not stored at every output [s]; 0 if it is."""
-    every = results.file.every(dataset)
+    every = results.every(quantity)
     return every * float(np.median(np.diff(results.time))) if every > 1 else 0.0
 
 

@@ -33,6 +33,7 @@ from sprung_tools.files.array_types import ComplexNumbers, Floats
 SETTLING = 20.0  # s of rest appended to a signal, so that the end of its response does not reach its start again
 HIGHEST = 80.0  # Hz, where the standard's table ends
 SAMPLES_PER_PERIOD = 4.0  # needed in a period of the highest frequency
+ROUNDING = 1e-9  # relative, of times and their differences
 RUNNING = 1.0  # s, τ of (3)
 LOWEST = 0.4  # Hz, f₁
 LEFT = 1e-3  # share of earlier vibration
@@ -80,7 +81,7 @@ def weight_acceleration(acceleration: Floats, step: float, weighting: Weighting 
 
 def describe_fault(step: float) -> str:
     """Why samples are too far apart [s] for the weightings; empty if they are not."""
-    if step * HIGHEST * SAMPLES_PER_PERIOD <= 1.0:
+    if step * HIGHEST * SAMPLES_PER_PERIOD <= 1.0 + ROUNDING:
         return ""
     return (
         f"a sample every {1e3 * step:g} ms is too few: the weightings go to {HIGHEST:g} Hz and need one every "

@@ -8,7 +8,8 @@ const MEASURES = [
   ["crest", "vertical, crest factor", "1"], ["power", "absorbed power (6 W is borne for long)", "W"]];
 const TRAVEL = [
   ["compression", "compression from equilibrium, largest", "m"], ["rebound", "rebound from equilibrium, largest", "m"],
-  ["share", "compression over the way to the stop", "%"], ["hits", "stop struck", "times"], ["stopped", "on the stop", "s"]];
+  ["share", "compression over the way to the stop", "%"], ["hits", "stop struck", "times"], ["stopped", "on the stop", "s"],
+  ["rebound_hits", "rebound stop struck", "times"], ["rebound_stopped", "on the rebound stop", "s"]];
 const TYRE = [
   ["static", "static load", "N"], ["dynamic_rms", "load variation, r.m.s.", "N"], ["variation", "load variation over static load", "1"],
   ["greatest", "greatest load", "N"], ["off_ground", "off the ground", "s"], ["unloaded", "without load", "s"]];
@@ -17,7 +18,8 @@ const TYRE = [
 function completeRide(kind, one) {
   if (kind === "travel") {
     const share = one.compression !== null && one.whole !== null && one.whole > 0 ? 100 * one.compression / one.whole : null;
-    return {...one, share, stopped: one.hits === null ? null : one.stopped};
+    return {...one, share, stopped: one.hits === null ? null : one.stopped,
+      rebound_stopped: one.rebound_hits === null ? null : one.rebound_stopped};
   }
   if (kind === "tyres") return {...one, variation: one.static ? one.dynamic_rms / one.static : null};
   return one;
