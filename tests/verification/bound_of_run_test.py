@@ -194,7 +194,8 @@ y = {{ spring = {{ polynomial = [0.0, 1e6] }} }}
 
     def test_a_torque_that_is_applied_is_a_load_as_well(self):
         self.build(good=("= 60.0", "= 60.0"))
-        for torque, warns in (("0.0", False), ("50.0", True), ("{ harmonic = { amplitude = 1.0, frequency = 2.0 } }", True)):
+        beat = "{ harmonic = { amplitude = 1.0, frequency = 2.0 } }"
+        for torque, warns in (("0.0", False), ("50.0", True), (beat, True)):
             vehicle = PUSHED.format(superelement="good", point="rear_spring") + f"torque = {torque}\n"
             warnings = self.program("run", self.write_model(vehicle, PUSHED_RUN), superelements=self.folder)["warnings"]
             told = [one["text"] for one in warnings if "chassis.rear_spring takes loads, but 'rotation'" in one["text"]]
