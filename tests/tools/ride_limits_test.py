@@ -114,11 +114,6 @@ class QuarterCar(QuarterCarCase):
         with self.assertRaisesRegex(InputError, "run.toml: error: the vehicle has no wheels on the road"):
             self.vehicle()
 
-    def test_outputs_that_are_not_all_stored_are_an_error(self):
-        vehicle = self.vehicle("sprung.origin", "output.step.bodies=0.01", "output.step.points=0.01")
-        with self.assertRaisesRegex(InputError, "stored every 10 ms only"):
-            calc_power(vehicle, Terrain(RECIPE, (0.001, 0.2), 6.0), 7.0, 0.01)
-
     def test_a_run_that_fails_is_told_and_not_used(self):
         # A program that makes the short run which tells what the vehicle is, and then fails in each of two ways.
         for code, complaint in ((3, "the step size fell below its limit"), (1, "the energy balance does not close")):

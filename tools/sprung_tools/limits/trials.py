@@ -130,9 +130,7 @@ class Vehicle:
         """The settings by which the outputs of a run are close enough for the measures, and judged at the point: the
         run's own step, or a whole part of it."""
         step = read_settings(results)["output_step"]
-        settings: dict[str, Any] = {}
-        if step > COARSEST:
-            settings["output_step"] = step / math.ceil(step / COARSEST - 1e-9)
+        settings: dict[str, Any] = {"output_step": step / max(1, math.ceil(step / COARSEST - 1e-9))}
         reported = results.names("summary/points")
         if self.point not in reported:
             settings["output.points"] = [*reported, self.point]
@@ -145,6 +143,8 @@ class Vehicle:
             folder = Path(name)
             write_whole(folder / "road.txt", road)
             table = {"shape": "table", "start": AHEAD, "file": str(folder / "road.txt")}
+            step = self.settings["output_step"]
+            duration = math.ceil(duration / step) * step  # so that the end is an output
             settings = {**self.settings, "speed": speed, "duration": duration, "road": table}
             self.start(settings, folder / "run.h5")
             with open_results(folder / "run.h5") as results:
