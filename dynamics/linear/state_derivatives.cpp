@@ -12,10 +12,9 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Of the differences by velocity, natural sizes per second: a law with |v| v, as of an orifice, has a slope
-// of its own at rest, and the difference adds the step times the rate of this slope.
-constexpr double kVelocityStep = 1e-6;
-constexpr double kVelocityReach = 1e-3;  // within which a law may have a kink, natural sizes per second
+// Of the differences by velocity, natural sizes per second: far above the dead bands of branches that change
+// with the sign of a rate.
+constexpr double kVelocityStep = 1e-3;
 
 const Model& model_of(const PartitionedEquations& equations) {
   return equations.terms().model();
@@ -113,8 +112,12 @@ Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const
                     set_velocities(equations, velocity * Eigen::VectorXd::Unit(f, k), motion, needed));
   };
   for (Eigen::Index k = 0; k < f; ++k) {
-    const double step = kVelocityStep * scale_of(equations, k);
-    const Eigen::VectorXd slope = (value_at(k, step) - value_at(k, -step)) / (2.0 * step);
+    // A law with |v| v, as of an orifice, adds its slope at the step to a difference: in proportion to the
+    // step.
+    const double h = kVelocityStep * scale_of(equations, k);
+    const Eigen::VectorXd wide = (value_at(k, h) - value_at(k, -h)) / (2.0 * h);
+    const Eigen::VectorXd narrow = (value_at(k, 0.5 * h) - value_at(k, -0.5 * h)) / h;
+    const Eigen::VectorXd slope = 2.0 * narrow - wide;
     if (k == 0) derivative.resize(slope.size(), f);
     derivative.col(k) = slope;
   }
@@ -141,7 +144,7 @@ std::vector<Kink> find_kinks(PartitionedEquations& equations, double time,
   }
   if (f > 0) set_shifted_rest(equations, time, q_independent, 0, 0.0, {}, Needed::kForces);
   for (Eigen::Index k = 0; k < f; ++k) {
-    const Eigen::VectorXd velocity = kVelocityReach * scale_of(equations, k) * Eigen::VectorXd::Unit(f, k);
+    const Eigen::VectorXd velocity = kVelocityStep * scale_of(equations, k) * Eigen::VectorXd::Unit(f, k);
     const std::vector<int> forward = set_velocities(equations, velocity, {}, Needed::kForces);
     add_changed(model, forward, set_velocities(equations, -velocity, {}, Needed::kForces), false, kinks);
   }

@@ -37,14 +37,14 @@ Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, doubl
                                           Needed needed = Needed::kAccelerations,
                                           Eigen::MatrixXd* spread = nullptr);
 
-/// Likewise with respect to the independent velocities, by central differences about rest at the positions
-/// that the equations were last evaluated at.
+/// Likewise with respect to the independent velocities, by central differences about rest, extrapolated so
+/// that a law with |v| v has no slope at rest, at the positions that the equations were last evaluated at.
 /// @return p×f
 Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const StateFunction& function,
                                           const SteadyMotion& motion = {},
                                           Needed needed = Needed::kAccelerations);
 
-/// A force element whose branch changes within the differences by position, or at velocities near rest.
+/// A force element whose branch changes within the differences above.
 struct Kink {
   std::string element;      ///< its name
   bool in_position = true;  ///< false if it changes with the sign of a velocity
