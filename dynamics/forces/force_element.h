@@ -32,8 +32,8 @@ struct Instant {
 /// eq. 14). It is zero at rest and scaled so that ½z² is an energy.
 struct InternalState {
   std::string name;  ///< "relaxation_x"
-  /// Its natural size [J^0.5], or [J^0.5/m] of the model's length scale. Its law is nearly linear over a
-  /// millionth of it, the step of differences (linear).
+  /// Its natural size [J^0.5], or [J^0.5/m] of the model's length scale. The linearisation takes differences
+  /// over a thousandth of it.
   double size = 1.0;
   bool is_per_length = false;
 };
@@ -111,9 +111,8 @@ class ForceElement {
 
   /// The states whose rates `calc_state_rates` gives.
   virtual std::vector<InternalState> internal_states() const { return {}; }
-  /// @param[out] rates  ż, one for each internal state; zero where markers and states are at rest, but for
-  /// what
-  ///                    flows until the vehicle has its height
+  /// @param[out] rates  ż, one for each internal state; zero where markers and states are at rest, except
+  ///                    through a valve that is open there
   virtual void calc_state_rates(const Instant& /*instant*/, std::span<const int> /*branches*/,
                                 std::span<double> /*rates*/) const {}
 

@@ -112,8 +112,8 @@ Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const
                     set_velocities(equations, velocity * Eigen::VectorXd::Unit(f, k), motion, needed));
   };
   for (Eigen::Index k = 0; k < f; ++k) {
-    // A law with |v| v, as of an orifice, adds its slope at the step to a difference: in proportion to the
-    // step.
+    // A law with |v| v, as of an orifice, gives a difference in proportion to its step: it cancels between
+    // two.
     const double h = kVelocityStep * scale_of(equations, k);
     const Eigen::VectorXd wide = (value_at(k, h) - value_at(k, -h)) / (2.0 * h);
     const Eigen::VectorXd narrow = (value_at(k, 0.5 * h) - value_at(k, -0.5 * h)) / h;

@@ -193,13 +193,13 @@ TEST_CASE("The reference names exactly the keys that the program reads, and ever
   const Reference reference = read_reference();
   const Found found = read_examples(reference);
   CHECK(found.asked.size() > 20);  // sections with keys: the reference was found at all
-  for (const auto& [title, section] : reference.sections) {
+  for (const auto& [title, keys] : reference.sections) {
     CAPTURE(title);
     REQUIRE(found.asked.contains(title));
-    CHECK(section.keys == found.asked.at(title));
+    CHECK(keys == found.asked.at(title));
     // Tables of the run file stand in examples of their own.
     Keys used = found.used.at(title);
-    CHECK(section.keys == used);
+    CHECK(keys == used);
   }
   for (const auto& [title, keys] : found.asked) {
     CAPTURE(title);

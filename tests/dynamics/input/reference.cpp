@@ -50,7 +50,7 @@ Reference read_reference() {
     } else if (!line.starts_with("|")) {
       in_key_table = false;
     } else if (in_key_table && line.starts_with("| `")) {
-      reference.sections[title].keys.merge(read_row_keys(line));
+      reference.sections[title].merge(read_row_keys(line));
     }
   }
   return reference;

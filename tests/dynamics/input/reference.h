@@ -9,16 +9,10 @@ namespace sprung::test {
 
 using Keys = std::set<std::string>;
 
-/// A section of the reference: "### Title", a table of keys, examples.
-struct Section {
-  Keys keys;
-  std::vector<std::string> examples;
-};
-
 struct Reference {
-  std::map<std::string, Section> sections;  // by title
-  std::string vehicle;                      // all examples of "## Vehicle file"
-  std::vector<std::string> runs;            // those of "## Run file"
+  std::map<std::string, Keys> sections;  ///< the keys in the tables below each "### Title"
+  std::string vehicle;                   ///< all examples of "## Vehicle file"
+  std::vector<std::string> runs;         ///< those of "## Run file"
 };
 
 /// The reference of all input keys, dynamics/models/README.md.

@@ -117,14 +117,10 @@ def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[t
             one = calc_travel(run.results, name, window)
             whole = one.whole or 0.0
             share = MISSING if one.compression is None or whole <= 0.0 else f"{100 * one.compression / whole:.0f} %"
-            hits = (*format_hits(one.hits, one.stopped), *format_hits(one.rebound_hits, one.rebound_stopped))
+            hits = (format_cell(one.hits, 0), format_cell(one.stopped, 3),
+                    format_cell(one.rebound_hits, 0), format_cell(one.rebound_stopped, 3))  # fmt: skip
             compression, rebound = (format_cell(value, 1, 1e3) for value in (one.compression, one.rebound))
             yield (name, run.label, compression, share, rebound, *hits)
-
-
-def format_hits(hits: int | None, stopped: float) -> tuple[str, str]:
-    """The cells of a stop: how often it was struck, and the time on it [s]."""
-    return (MISSING, MISSING) if hits is None else (str(hits), f"{stopped:.3f}")
 
 
 def make_contact_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:

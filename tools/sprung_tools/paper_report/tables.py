@@ -193,7 +193,9 @@ def make_ride_column(results: ResultsFile, superelements: Path, count: int) -> d
         travel = calc_travel(results, f"{axle}_suspension", window)
         extremes = ", ".join(format_cell(value, 0, 1e3) for value in (travel.compression, travel.rebound))
         column[f"{axle} suspension: compression, rebound mm"] = extremes
-        column[f"{axle} bump stops: hits, time on them s"] = f"{travel.hits}, {travel.stopped:.2f}"
+        column[f"{axle} bump stops: hits, time on them s"] = (
+            f"{format_cell(travel.hits, 0)}, {format_cell(travel.stopped, 2)}"
+        )
     for axle in ("front", "rear"):
         contact = calc_contact(results, f"{axle}_tyre", window)
         variation = contact.over_static(contact.dynamic_rms)

@@ -184,10 +184,7 @@ def measure_bands(results: ResultsFile, name: str, folder: str, window: Span) ->
 def measure_suspension(results: ResultsFile, name: str, window: Span) -> Measures:
     """The travel of a suspension."""
     one = calc_travel(results, name, window)
-    stopped = None if one.hits is None else one.stopped
-    rebound_stopped = None if one.rebound_hits is None else one.rebound_stopped
-    values = (one.compression, one.rebound, one.whole, one.hits, stopped, one.rebound_hits, rebound_stopped)
-    return combine(f"suspensions/{name}", SUSPENSION_UNITS, values)
+    return combine(f"suspensions/{name}", SUSPENSION_UNITS, one)
 
 
 def measure_tyre(results: ResultsFile, name: str, window: Span) -> Measures:

@@ -41,16 +41,16 @@ class Travel(NamedTuple):
     deflection in balance is not known.
 
     whole: the way from balance to the compression stop [m], None without one, too; hits: how often that stop was
-    struck, None without one; stopped: the time on it [s]; rebound_hits, rebound_stopped: of the rebound stop.
+    struck, stopped: the time on it [s], both None without one; rebound_hits, rebound_stopped: of the rebound stop.
     """
 
     compression: float | None
     rebound: float | None
     whole: float | None
     hits: int | None
-    stopped: float
+    stopped: float | None
     rebound_hits: int | None
-    rebound_stopped: float
+    rebound_stopped: float | None
 
 
 class Contact(NamedTuple):
@@ -164,10 +164,10 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
     )
 
 
-def count_hits(struck: Flags | None, row_step: float) -> tuple[int | None, float]:
-    """How often a stop is struck by samples, and the time on it [s]. struck: of each sample; None without a stop."""
+def count_hits(struck: Flags | None, row_step: float) -> tuple[int | None, float | None]:
+    """How often a stop is struck by samples, and the time on it [s]; None without a stop. struck: of each sample."""
     if struck is None:
-        return None, 0.0
+        return None, None
     hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
     return hits, float(np.count_nonzero(struck) * row_step)
 

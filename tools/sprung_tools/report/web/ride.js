@@ -18,8 +18,7 @@ const TYRE = [
 function completeRide(kind, one) {
   if (kind === "travel") {
     const share = one.compression !== null && one.whole !== null && one.whole > 0 ? 100 * one.compression / one.whole : null;
-    return {...one, share, stopped: one.hits === null ? null : one.stopped,
-      rebound_stopped: one.rebound_hits === null ? null : one.rebound_stopped};
+    return {...one, share};
   }
   if (kind === "tyres") return {...one, variation: one.static ? one.dynamic_rms / one.static : null};
   return one;
