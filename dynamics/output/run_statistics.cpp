@@ -74,6 +74,7 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
   bending_ = make_body_bending(vehicle, model, sections);
   const std::vector<VehiclePoint> of_vehicle = list_points(vehicle);
   for (const BodySections& body : sections.bodies()) {
+    moments_.emplace_back(body);
     if (!body.has_modes()) continue;
     const reduce::Superelement& superelement = *vehicle.superelement_of(vehicle.bodies[body.body()]);
     const std::optional<reduce::Certificate>& certificate = superelement.certificate;
@@ -110,6 +111,8 @@ void RunStatistics::add(const Snapshot& snapshot) {
   ++num_samples_;
   if (snapshot.acceleration_error != nullptr) ++num_estimates_;
   sections_.add(snapshot.time);
+  const std::vector<BodySections>& bodies = sections_.sections().bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b) moments_[b].add_output(bodies[b]);
   for (Point& point : points_) {
     const auto marker = static_cast<std::size_t>(point.marker);
     point.displacement.add(terms.markers()[marker].r.y() - point.reference_height);
@@ -136,6 +139,8 @@ void RunStatistics::add_between(double time, const ConstrainedEquations& equatio
     point.density[0].add_between(acceleration.x());
     point.density[1].add_between(acceleration.y());
   }
+  const std::vector<BodySections>& bodies = sections_.sections().bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b) moments_[b].add_between(bodies[b]);
 }
 
 bool RunStatistics::is_counted(double time) const {
@@ -195,6 +200,7 @@ void RunStatistics::transfer(Bytes& bytes, Statistics& statistics) {
     bytes.transfer(point.squared_error);
   }
   SectionStatistics::transfer(bytes, statistics.sections_);
+  for (auto& body : statistics.moments_) MomentDensity::transfer(bytes, body);
   for (auto& body : statistics.bending_) BodyBending::transfer(bytes, body);
   for (auto& body : statistics.certified_) CertifiedError::transfer(bytes, body);
   bytes.transfer(statistics.num_samples_);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/output/moment_density.h"
 #include "dynamics/output/sample_density.h"
 #include "dynamics/section_loads/body_bending.h"
 #include "dynamics/section_loads/certified_error.h"
@@ -51,8 +52,8 @@ class RunStatistics {
 
   /// Adds an output, at which the sections are up to date.
   void add(const Snapshot& snapshot);
-  /// Takes an instant between outputs, at which all markers are up to date, into account for the density of
-  /// the outputs and for the size of the energies.
+  /// Takes an instant between outputs, at which all markers and the sections are up to date, into account for
+  /// the density of the outputs and for the size of the energies.
   void add_between(double time, const ConstrainedEquations& equations, const Energy& stored);
 
   std::vector<PointStatistics> point_statistics() const;
@@ -65,7 +66,8 @@ class RunStatistics {
   /// From one stored acceleration of a point to the next [s].
   double stored_step() const { return static_cast<double>(window_.stored_every) * window_.output_step; }
   const SectionStatistics& sections() const { return sections_; }
-  const std::vector<BodyBending>& bending() const { return bending_; }  ///< of each body with modes
+  const std::vector<MomentDensity>& moments() const { return moments_; }  ///< of each of the sections' bodies
+  const std::vector<BodyBending>& bending() const { return bending_; }    ///< of each body with modes
   /// Of each body with modes whose superelement has a bound.
   const std::vector<CertifiedError>& certified() const { return certified_; }
 
@@ -99,6 +101,7 @@ class RunStatistics {
   StatisticsWindow window_;
   std::vector<Point> points_;
   SectionStatistics sections_;
+  std::vector<MomentDensity> moments_;
   std::vector<BodyBending> bending_;
   std::vector<CertifiedError> certified_;
   long num_samples_ = 0, num_outputs_ = 0, num_estimates_ = 0;

@@ -187,6 +187,43 @@ void warn_of_coarse_outputs(const Model& model, const RunStatistics& statistics,
            statistics.stored_step() > statistics.output_step() ? "step.points of [output]" : "output_step")});
 }
 
+// Of bending moments that the outputs may have missed the peaks of: one warning for each body.
+void warn_of_coarse_moments(const RunStatistics& statistics, std::vector<RunWarning>& warnings) {
+  const std::vector<BodySections>& bodies = statistics.sections().sections().bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const MomentDensity& moments = statistics.moments()[b];
+    const double floor = moments.floor();
+    if (floor == 0.0) continue;
+    const SampleDensity* most_missed = nullptr;
+    double worst_roughness = 0.0;
+    for (const SampleDensity& element : moments.elements()) {
+      worst_roughness = std::max(worst_roughness, element.roughness(floor));
+      if (element.missed(floor) <= kMissedPeak) continue;
+      if (most_missed == nullptr ||
+          std::abs(element.farthest_between()) > std::abs(most_missed->farthest_between()))
+        most_missed = &element;
+    }
+    std::string reason;
+    if (most_missed != nullptr) {
+      reason = fmt::format(
+          "one changed by {:.3g} N·m in between, and by {:.3g} to {:.3g} N·m at them, since the start",
+          most_missed->farthest_between(), most_missed->smallest(), most_missed->largest());
+    } else if (worst_roughness > kTooRough) {
+      reason = fmt::format("one differs at each by {:.3g} % r.m.s. from the curve through its neighbours",
+                           100.0 * worst_roughness);
+    } else {
+      continue;
+    }
+    warnings.push_back(
+        {kSummary,
+         {bodies[b].name()},
+         fmt::format("values every {:.6g} s do not resolve the bending moments of {}: {}; so the "
+                     "largest loads of its sections, its stresses and its fatigue damage may be "
+                     "too small: take a smaller output_step",
+                     statistics.output_step(), bodies[b].name(), reason)});
+  }
+}
+
 // A text with the name of the file alone in the place before it, `path:line:column: `, if it begins with one.
 std::string remove_folders(const std::string& text) {
   for (auto end = text.find(": ", 1); end != std::string::npos; end = text.find(": ", end + 1)) {
@@ -270,6 +307,7 @@ std::vector<RunWarning> list_run_warnings(const Vehicle& vehicle, const Model& m
     warn_of_missing_modes(model, statistics, transient, *adaptivity, warnings);
   }
   warn_of_coarse_outputs(model, statistics, warnings);
+  if (judged.moments) warn_of_coarse_moments(statistics, warnings);
   add_remarks(list_missing_parts(statistics.sections(), judged), statistics, warnings);
   add_remarks(list_large_bending(statistics.bending()), statistics, warnings);
   if (judged.points) {

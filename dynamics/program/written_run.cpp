@@ -88,8 +88,11 @@ TransientStatistics integrate_run(const PreparedRun& prepared, TransientOptions&
     if (writer) writer->add(snapshot);
     storing += wall_time();
   };
-  options.on_time_between = [&](double time, const ConstrainedEquations& equations, const Energy& stored) {
-    statistics.add_between(time, equations, stored);
+  options.on_time_between = [&](double time, const SystemStepper::Observation& now, const Energy& stored) {
+    storing -= wall_time();
+    sections.update(now.equations.terms(), now.equations.multipliers(), now.q, now.v, now.v_dot);
+    statistics.add_between(time, now.equations, stored);
+    storing += wall_time();
   };
   options.on_event = [&](const Event& event) {
     if (writer) writer->add(event);

@@ -14,7 +14,7 @@ namespace {
 constexpr Eigen::Index kBlock = 512;        // outputs that are transformed together
 constexpr double kLeastAcceleration = 0.1;  // m/s², r.m.s. below which no share is formed
 constexpr long kLeastBlocks = 4;            // for the share of a reported point above the band
-constexpr double kHeld = 1e-6;  // r.m.s., of the largest, of points that a joint keeps from moving
+constexpr double kHeld = 1e-6;  // r.m.s., of the largest, of directions in which a joint keeps a point
 
 int find_row(const reduce::Certificate& certificate, const reduce::Superelement& superelement, int node,
              int freedom) {
@@ -77,7 +77,7 @@ CertifiedError::CertifiedError(const Model& model, int body, const reduce::Super
   }
   const auto num_markers = static_cast<Eigen::Index>(markers_.size());
   samples_ = Eigen::MatrixXd::Zero(kBlock, num_freedoms + 2 * num_markers);
-  total_ = above_ = Eigen::VectorXd::Zero(num_markers);
+  total_ = above_ = Eigen::Matrix2Xd::Zero(2, num_markers);
 }
 
 void CertifiedError::add(std::span<const Wrench> loads, const Eigen::VectorXd& q,
@@ -110,8 +110,8 @@ void CertifiedError::add(std::span<const Wrench> loads, const Eigen::VectorXd& q
 
 // Adds the mean squares of a block of samples under a Hann window, without their means. Zeros follow on a
 // shorter block: transforms of lengths with large prime factors are slow.
-void CertifiedError::add_block(Eigen::Index length, double& missing, Eigen::VectorXd& total,
-                               Eigen::VectorXd& above) const {
+void CertifiedError::add_block(Eigen::Index length, double& missing, Eigen::Matrix2Xd& total,
+                               Eigen::Matrix2Xd& above) const {
   using std::numbers::pi;
   const Eigen::ArrayXd window =
       0.5 - 0.5 * (2.0 * pi / static_cast<double>(length) *
@@ -142,12 +142,10 @@ void CertifiedError::add_block(Eigen::Index length, double& missing, Eigen::Vect
   }
   sum *= (2.0 * pi * frequency).square();
   missing += scale * (is_inside * sum.square()).sum();
-  for (Eigen::Index m = 0; m < total.size(); ++m) {
-    for (Eigen::Index direction = 0; direction < 2; ++direction) {
-      const Eigen::ArrayXd square = transform(weights_.size() + 2 * m + direction);
-      total[m] += scale * square.sum();
-      above[m] += scale * ((1.0 - is_inside) * square).sum();
-    }
+  for (Eigen::Index k = 0; k < total.size(); ++k) {
+    const Eigen::ArrayXd square = transform(weights_.size() + k);
+    total.reshaped()[k] += scale * square.sum();
+    above.reshaped()[k] += scale * ((1.0 - is_inside) * square).sum();
   }
 }
 
@@ -155,7 +153,7 @@ CertifiedShare CertifiedError::find_worst() const {
   CertifiedShare worst;
   if (uncovered_ >= 0) worst.uncovered = point_names_[static_cast<std::size_t>(uncovered_)];
   double missing = missing_;
-  Eigen::VectorXd total = total_, above = above_;
+  Eigen::Matrix2Xd total = total_, above = above_;
   auto blocks = static_cast<double>(num_blocks_);
   // The samples since the last block, whose second half they begin with.
   if (num_samples_ > (num_blocks_ == 0 ? 2 : kBlock / 2)) {
@@ -163,12 +161,13 @@ CertifiedShare CertifiedError::find_worst() const {
     blocks += 1.0;
   }
   if (blocks == 0.0) return worst;
-  const double largest = total.size() > 0 ? std::sqrt(total.maxCoeff() / blocks) : 0.0;
+  const Eigen::VectorXd whole = total.colwise().sum(), whole_above = above.colwise().sum();
+  const double largest = whole.size() > 0 ? std::sqrt(whole.maxCoeff() / blocks) : 0.0;
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     if (rows_[j].first < 0) continue;
     const auto marker = static_cast<Eigen::Index>(rows_[j].first);
-    const double rms = std::sqrt(total[marker] / blocks);
-    if (rms <= kHeld * largest) continue;
+    if (std::sqrt(total(rows_[j].second, marker) / blocks) <= kHeld * largest) continue;
+    const double rms = std::sqrt(whole[marker] / blocks);
     const double bound = weights_[static_cast<Eigen::Index>(j)] * std::sqrt(missing / blocks);
     const double share = bound / std::max(rms, kLeastAcceleration);
     if (!worst.point.empty() && share <= worst.missing) continue;
@@ -176,12 +175,12 @@ CertifiedShare CertifiedError::find_worst() const {
     worst.point = point_names_[place];
     worst.direction = rows_[j].second;
     worst.missing = share;
-    worst.above = std::sqrt(above[marker] / total[marker]);
+    worst.above = std::sqrt(whole_above[marker] / whole[marker]);
   }
   if (num_blocks_ < kLeastBlocks) return worst;
   for (const Eigen::Index marker : reported_) {
-    if (std::sqrt(total[marker] / blocks) <= std::max(kLeastAcceleration, kHeld * largest)) continue;
-    const double share_above = std::sqrt(above[marker] / total[marker]);
+    if (std::sqrt(whole[marker] / blocks) <= std::max(kLeastAcceleration, kHeld * largest)) continue;
+    const double share_above = std::sqrt(whole_above[marker] / whole[marker]);
     if (share_above <= worst.loudest_above) continue;
     worst.loudest = point_names_[static_cast<std::size_t>(markers_[static_cast<std::size_t>(marker)])];
     worst.loudest_above = share_above;

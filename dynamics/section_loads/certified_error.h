@@ -47,8 +47,8 @@ class CertifiedError {
   /// @param acceleration  of each marker of markers(), world axes [m/s²]
   void add(std::span<const Wrench> loads, const Eigen::VectorXd& q, const Eigen::Matrix2Xd& acceleration);
   const std::vector<int>& markers() const { return markers_; }  ///< of interface and reported points
-  /// For the interface point and direction of which most may be missing; points that do not move, as where
-  /// the body is fixed to the ground, have no share.
+  /// For the interface point and direction of which most may be missing; a direction in which a point does
+  /// not move, as where the ground holds it, has no share.
   CertifiedShare find_worst() const;
 
   template <class Bytes, class Error>
@@ -59,7 +59,7 @@ class CertifiedError {
     bytes.transfer(error.missing_);
     bytes.transfer(error.uncovered_);
     for (auto* values : {&error.total_, &error.above_}) {
-      for (Eigen::Index i = 0; i < values->size(); ++i) bytes.transfer((*values)[i]);
+      for (Eigen::Index i = 0; i < values->size(); ++i) bytes.transfer(values->data()[i]);
     }
     for (Eigen::Index i = 0; i < error.samples_.size(); ++i) bytes.transfer(error.samples_.data()[i]);
   }
@@ -70,7 +70,8 @@ class CertifiedError {
     Eigen::Vector2d offset;   // from the node
     std::array<int, 3> rows;  // of the interface, −1: not in it
   };
-  void add_block(Eigen::Index length, double& missing, Eigen::VectorXd& total, Eigen::VectorXd& above) const;
+  void add_block(Eigen::Index length, double& missing, Eigen::Matrix2Xd& total,
+                 Eigen::Matrix2Xd& above) const;
 
   std::string name_;
   bool is_proved_, is_whole_;
@@ -87,8 +88,8 @@ class CertifiedError {
   Eigen::Index num_samples_ = 0;
   int uncovered_ = -1;  // marker with a load that is not in the interface
   long num_blocks_ = 0;
-  double missing_ = 0.0;           // sum over blocks of the mean square of Σ w |F|, ω²-weighted
-  Eigen::VectorXd total_, above_;  // the same of each marker's acceleration, and of its part above the band
+  double missing_ = 0.0;            // sum over blocks of the mean square of Σ w |F|, ω²-weighted
+  Eigen::Matrix2Xd total_, above_;  // of each marker's acceleration, and of its part above the band
 };
 
 }  // namespace sprung::dynamics

@@ -257,7 +257,7 @@ class TransientRun {
     if (!options_.on_time_between) return;
     stepper_->evaluate_end_approximately(SystemStepper::Level::kAllMarkers);
     const SystemStepper::Observation now = stepper_->observation();
-    options_.on_time_between(stepper_->time(), now.equations, calc_stored(now));
+    options_.on_time_between(stepper_->time(), now, calc_stored(now));
   }
 
   Energy calc_stored(const SystemStepper::Observation& now) {

@@ -68,7 +68,7 @@ struct TransientOptions {
   std::function<void(const Snapshot&)> on_output;  ///< at 0, output_step, … to the end
   /// At the ends of some of the steps in which no output was due, with accelerations and all markers up to
   /// date; may be empty.
-  std::function<void(double time, const ConstrainedEquations&, const Energy& stored)> on_time_between;
+  std::function<void(double time, const SystemStepper::Observation&, const Energy& stored)> on_time_between;
   std::function<void(const Event&)> on_event;  ///< may be empty
   std::function<bool(double time)> on_step;    ///< after every step; false stops the run; may be empty
   /// Steps and outputs between two checkpoints. Each restarts the integrator (simulation, "Checkpoints").
