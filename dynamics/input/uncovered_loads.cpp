@@ -81,4 +81,20 @@ std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Mode
   return remarks;
 }
 
+std::vector<std::string> list_spread_loads(const Vehicle& vehicle, const Model& model) {
+  std::vector<std::string> remarks;
+  const std::vector<VehiclePoint> points = list_points(vehicle);
+  for (const int marker : model.acting_markers) {
+    const auto i = static_cast<std::size_t>(marker);
+    if (i >= points.size() || points[i].kind != VehiclePoint::Kind::kCenterOfMass) continue;
+    const BodyDescription& body = vehicle.bodies[static_cast<std::size_t>(points[i].body)];
+    if (!vehicle.superelement_of(body)) continue;
+    remarks.push_back(fmt::format(
+        "{}: loads on {} are spread along the body as its mass is, and bend it less than at one place; "
+        "for a load at one place, take a point of the design",
+        support::format_place(body.location), points[i].name));
+  }
+  return remarks;
+}
+
 }  // namespace sprung::dynamics

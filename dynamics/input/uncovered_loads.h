@@ -29,4 +29,8 @@ std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Mo
 /// Checked by tests/verification/bound_of_run_test.py
 std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Model& model);
 
+/// A remark, with the body's place, for each body with a superelement whose centre of mass joints or force
+/// elements act on. Checked by tests/verification/supported_beam_test.py
+std::vector<std::string> list_spread_loads(const Vehicle& vehicle, const Model& model);
+
 }  // namespace sprung::dynamics

@@ -264,6 +264,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
                               MotionUse::kMoving, properties.stiffened);
   for (std::string& remark : list_uncovered_loads(vehicle, prepared.model))
     report_remark(std::move(remark), request, prepared);
+  for (std::string& remark : list_spread_loads(vehicle, prepared.model))
+    report_remark(std::move(remark), request, prepared);
   IntegratorSettings& integrator = prepared.run.integrator;
   if (!integrator.names_method)
     integrator.options.method = default_method(prepared.model.num_freedoms(), prepared.model.has_modes());

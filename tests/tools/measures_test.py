@@ -51,7 +51,7 @@ class Json(ToolTestCase):
     def test_it_has_the_numbers_of_the_tables_under_their_names_with_units(self):
         path = write_run(self.folder / "a.h5")
         found = self.read_json("truck=a.h5")
-        self.assertEqual((found["format"], found["version"]), ("sprung-measures", 3))
+        self.assertEqual((found["format"], found["version"]), ("sprung-measures", 4))
         (run,) = found["runs"]
         self.assertEqual((run["label"], run["file"], run["kind"], run["title"]), ("truck", "a.h5", "run", "synthetic"))
         self.assertEqual(run["span"], {"from": 1.0, "to": 3.0, "unit": "s"})
@@ -78,7 +78,7 @@ class Json(ToolTestCase):
             "tyres/tyre/dynamic_load_rms": (contact.dynamic_rms, "N"),
             "tyres/tyre/time_off_ground": (contact.off_ground, "s"),
             "tyres/tyre/time_without_load": (contact.unloaded, "s"),
-            "loads/body/moment": (bending.value, "N m"), "loads/body/station": (0.25, "m"),
+            "loads/body/moment": (bending.value, "N m"), "loads/body/x": (0.25, "m"), "loads/body/y": (0.1, "m"),
             "loads/body/time": (bending.time, "s"), "loads/body/shear": (-40.0, "N"),
             "loads/body/axial": (None, "N"), "loads/body/axial_size": (None, "N"),
             "loads/body/moment_size": (abs(bending.value), "N m"), "loads/body/shear_size": (40.0, "N"),
@@ -104,7 +104,7 @@ class Json(ToolTestCase):
         path = write_run(self.folder / "a.h5")
         with h5py.File(path, "a") as file:
             moments = np.zeros(file["recovery/body/moment"].shape)
-            moments[1500, 2], moments[2500, 0] = -5e3, 4e3  # the largest is not where and when that of the modes is
+            moments[1500, 3], moments[2500, 0] = -5e3, 4e3  # the largest is not where and when that of the modes is
             write_series(file, "recovery/body/moment_from_loads", moments, "N m")
             write_series(file, "recovery/body/shear_from_loads", -0.5 * moments, "N")
             write_series(file, "recovery/body/axial_from_loads", 0.1 * moments, "N")
@@ -115,7 +115,7 @@ class Json(ToolTestCase):
         of_body = [name for name in run["measures"] if name.startswith("loads/body/")]
         found = {name.rpartition("/")[2]: run["measures"][name]["value"] for name in of_body}
         expected = {
-            "moment": -5e3, "station": 1.0, "time": 1.5, "shear": 2.5e3, "axial": -500.0, "moment_size": 5e3,
+            "moment": -5e3, "x": 1.0, "y": 0.0, "time": 1.5, "shear": 2.5e3, "axial": -500.0, "moment_size": 5e3,
             "shear_size": 2.5e3, "axial_size": 500.0, "moment_from_modes": -3e3, "shear_from_modes": -40.0,
             "axial_from_modes": 1e-7, "moment_difference": difference,
         }  # fmt: skip
@@ -124,7 +124,7 @@ class Json(ToolTestCase):
             self.assertAlmostEqual(found[name], value, places=9, msg=name)
         rows = [line.split() for line in self.run_tool("ride", "truck=a.h5").stdout.splitlines()]
         (row,) = [row[2:] for row in rows if row[:2] == ["body", "truck"]]
-        self.assertEqual(row, ["-5", "1.000", "1.500", "-3", f"{1e-3 * difference:.4g}"])
+        self.assertEqual(row, ["-5", "1.000", "0.000", "1.500", "-3", f"{1e-3 * difference:.4g}"])
 
     def test_the_largest_loads_that_the_run_itself_has_found_count_where_its_file_holds_some_rows_only(self):
         path = write_run(self.folder / "a.h5")
@@ -134,7 +134,7 @@ class Json(ToolTestCase):
             )
         with open_results(path) as results:
             peak = find_best_peak(results, "body", MOMENT, WINDOW)
-            self.assertEqual((peak.value, peak.station, peak.time),
+            self.assertEqual((peak.value, peak.x, peak.time),
                              (-7e3, results.file.numbers("recovery/body/station")[0][1, 0], 1.7254))  # fmt: skip
             # Of another span than that of the run's statistics: from the rows of the file
             self.assertAlmostEqual(find_best_peak(results, "body", MOMENT, (1.2, 2.8)).value, -3e3, places=6)

@@ -10,13 +10,15 @@ from sprung_tools.signals.fatigue_damage import (
     calc_damage,
     calc_range,
 )
-from sprung_tools.signals.rainflow import count_cycles, find_turning_points
+from sprung_tools.signals.rainflow import begin_at_highest, count_cycles, find_turning_points
 
 MPA = 1e6
 # ASTM E1049-85, figure 6, "Rainflow counting example": peaks and valleys A to I in units of its grid, and the counts of
 # its table of ranges; all other ranges from 1 to 10 have none.
 EXAMPLE = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]
 COUNTED = {3.0: 0.5, 4.0: 1.5, 6.0: 0.5, 8.0: 1.0, 9.0: 0.5}
+# The same history repeated, figure 7 of the standard: from D to the next D, all cycles are whole.
+REPEATED = {3.0: 1.0, 4.0: 1.0, 7.0: 1.0, 9.0: 1.0}
 # Its cycles as (range, mean, count) in the order in which they close: A-B, B-C, E-F, then C-D, D-G, G-H, H-I.
 CYCLES = [(3.0, -0.5, 0.5), (4.0, -1.0, 0.5), (4.0, 1.0, 1.0), (8.0, 1.0, 0.5), (9.0, 0.5, 0.5), (8.0, 0.0, 0.5),
           (6.0, 1.0, 0.5)]  # fmt: skip
@@ -43,12 +45,25 @@ def count_by_four_points(history):
     return found + [(abs(one - other), 0.5 * (one + other), 0.5) for one, other in zip(waiting, waiting[1:])]
 
 
+def sum_counts(cycles):
+    """How many cycles each range has."""
+    return {size: float(np.sum(cycles.counts[cycles.ranges == size])) for size in np.unique(cycles.ranges)}
+
+
 class RainflowCounting(ToolTestCase):
     def test_the_published_example(self):
         cycles = count_cycles(np.array(EXAMPLE))
-        found = {size: float(np.sum(cycles.counts[cycles.ranges == size])) for size in np.unique(cycles.ranges)}
-        self.assertEqual(found, COUNTED)
+        self.assertEqual(sum_counts(cycles), COUNTED)
         self.assertEqual(list(zip(*(part.tolist() for part in cycles))), CYCLES)
+        self.assertEqual(sum_counts(count_cycles(begin_at_highest(np.array(EXAMPLE)))), REPEATED)
+
+    def test_a_repetition_has_what_each_more_of_many_passages_adds(self):
+        for seed in range(5):
+            history = np.random.default_rng(seed).normal(size=300).cumsum()
+            two, three = (sum_counts(count_cycles(np.tile(history, number))) for number in (2, 3))
+            added = {size: count - two.get(size, 0.0) for size, count in three.items()}
+            repeated = sum_counts(count_cycles(begin_at_highest(history)))
+            self.assertEqual({size: count for size, count in added.items() if count}, repeated)
 
     def test_samples_between_turning_points_do_not_count(self):
         fine = np.interp(np.linspace(0.0, 8.0, 161), np.arange(9.0), EXAMPLE)

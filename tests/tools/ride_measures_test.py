@@ -143,7 +143,7 @@ class RideMeasures(ToolTestCase):
     def test_the_largest_moment_keeps_its_sign_its_place_and_its_time(self):
         bending = find_best_peak(self.open(), "body", MOMENT, (1.2, 2.8))
         self.assertAlmostEqual(bending.value, -3e3, places=6)
-        self.assertEqual((bending.station, round(bending.time, 9)), (0.25, 2.0))
+        self.assertEqual((bending.x, bending.y, round(bending.time, 9)), (0.25, 0.1, 2.0))
         self.assertIsNone(find_best_peak(self.open(with_moments=False), "body", MOMENT, WINDOW))
 
     def test_uneven_or_too_few_samples_are_refused(self):
@@ -218,7 +218,7 @@ class Tool(ToolTestCase):
         self.assertEqual((static, greatest, off_ground, unloaded), (50.0, 125.0, 0.41, 0.534))
         self.assertAlmostEqual(1e3 * dynamic / calc_dynamic_load(), 1.0, delta=1e-3)
         self.assertAlmostEqual(share, dynamic / static, delta=1e-3)
-        self.assertEqual(rows["body"][2:], ["-3", "0.250", "2.000", "-3", "–"])
+        self.assertEqual(rows["body"][2:], ["-3", "0.250", "0.100", "2.000", "-3", "–"])
         self.assertNotIn("its modes miss", process.stdout)
 
     def test_the_moment_from_the_loads_comes_first_with_that_of_the_modes_and_the_largest_difference(self):
@@ -236,7 +236,7 @@ class Tool(ToolTestCase):
         rows = [line.split() for line in printed.splitlines()]
         (found,) = [row[2:] for row in rows if row[:2] == ["body", "truck"]]
         self.assertIn("what 'its modes miss' is another number", printed)  # (section_loads, eq. 3)
-        self.assertEqual(found, ["-3.6", "0.250", "2.000", "-3", "0.9"])
+        self.assertEqual(found, ["-3.6", "0.250", "0.100", "2.000", "-3", "0.9"])
 
     def test_every_heading_of_the_vibration_has_its_unit(self):
         write_ride_results(self.folder / "a.h5")

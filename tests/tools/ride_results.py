@@ -17,11 +17,12 @@ SETTINGS = {
     "start": np.bytes_("equilibrium"),
 }  # fmt: skip
 ENDS = {"a": "body.spring", "b": "axle.origin"}
+STATIONS = np.array([(-1.0, 0.0), (0.25, 0.1), (0.25, 0.1), (1.0, 0.0)])  # of the body: two elements
 
 
 def write_ride_results(path, with_moments=True, settings=(), stop=STOP, rebound_stop=None):
     """Writes the file. Deflection: static + 0.1 sin; load: static (1 + 1.5 sin), cut off at 0; moment: at
-    the second of three stations, greatest at 2 s: 3 kN·m. The link has no stop. settings: of the resolved
+    two of four stations, greatest at 2 s: 3 kN·m. The link has no stop. settings: of the resolved
     model, as a dict; stop, rebound_stop: of the suspension [m], None for none. Returns the path."""
     time = STEP * np.arange(round(DURATION / STEP) + 1)
     beat = np.sin(2.0 * np.pi * BEAT * time)
@@ -52,8 +53,8 @@ def write_ride_results(path, with_moments=True, settings=(), stop=STOP, rebound_
         write_element(file, "forces/tyre", "tyre", "wheel", {"wheel": "axle.origin"}, {"radius": 0.5})
         if with_moments:
             moment = 3e3 * np.cos(0.5 * np.pi * (time - 2.0))
-            write_series(file, "recovery/body/moment", (0.5 * moment, -moment, 0.2 * moment), "N m")
-            write_series(file, "recovery/body/station", np.array([[-1.0, 0.0], [0.25, 0.1], [1.0, 0.0]]), "m")
+            write_series(file, "recovery/body/moment", (0.5 * moment, -moment, -moment, 0.2 * moment), "N m")
+            write_series(file, "recovery/body/station", STATIONS, "m")
         write_series(file, "model/resolved/gravity", np.array([0.0, -9.80665]), "m/s^2")
         equilibrium = file.create_group("model/equilibrium")
         equilibrium.attrs["is_static_equilibrium"] = 1

@@ -112,7 +112,8 @@ class FrameLoads(ToolTestCase):
             self.assertEqual([one["value"] for one in quantity["extremes"]], [3.0, -5.0])
             self.assertEqual(
                 quantity["difference"],
-                {"what": "largest difference from that of the modes", "value": -6.0, "place": 2.0, "time": time},
+                {"what": "largest difference from that of the modes", "value": -6.0, "place": 2.0, "where": "2 m",
+                 "time": time},
             )
 
     def test_stresses_are_shown_for_both_sides_of_a_body_with_sizes_of_sections(self):
@@ -137,10 +138,10 @@ class FrameLoads(ToolTestCase):
 
     def test_a_frame_that_is_not_slender_is_drawn_along_its_elements(self):
         stations = np.array([(0.0, 0.0), (0.0, 3.0), (0.0, 3.0), (4.0, 3.0)])
-        order, along, name = place_stations(stations)
-        np.testing.assert_array_equal(order, [0, 1, 2, 3])
-        np.testing.assert_allclose(along, [0.0, 3.0, 3.0, 7.0])
-        self.assertEqual(name, "length along the elements in their order, m")
+        layout = place_stations(stations)
+        np.testing.assert_array_equal(layout.order, [0, 1, 2, 3])
+        np.testing.assert_allclose(layout.along, [0.0, 3.0, 3.0, 7.0])
+        self.assertEqual(layout.axis, "length along the elements in their order, m")
 
 
 if __name__ == "__main__":

@@ -6,7 +6,8 @@ import unittest
 import numpy as np
 from verification_case import VerificationCase, run_program
 
-DESIGN = """
+POINT_MASS = '[[point_masses]]\npoint = "middle"\nmass = 800.0\n'
+DESIGN = f"""
 [materials.steel]
 youngs_modulus = 2.1e11
 density = 7850.0
@@ -23,10 +24,7 @@ right = [6.0, 0.0]
 through = ["left", "middle", "right"]
 section = "rail"
 elements = [4, 8]
-[[point_masses]]
-point = "middle"
-mass = 800.0
-[reference]
+{POINT_MASS}[reference]
 point = "left"
 [interface]
 left = "xyr"
@@ -103,6 +101,21 @@ class SupportedBeam(VerificationCase):
         found = results.summary["certified"]["beam"]
         self.assertNotEqual((found["point"], found["axis"]), ("beam.right", "y"))
         self.assertFalse([one for one in results.summary["warnings"] if "superelement" in one["text"]])
+
+    def test_loads_on_the_centre_of_mass_are_said_to_be_spread(self):
+        """They are spread as the mass is: on a beam without the point mass a force at midspan would bend it twice as
+        much, F L/4 in place of F L/8."""
+        (self.folder / "beam.toml").write_text(DESIGN.replace(POINT_MASS, ""), encoding="utf-8")
+        run_program([os.environ["SPRUNG_REDUCE"], "build", "beam.toml"], cwd=self.folder, check=True)
+        vehicle = "gravity = [0.0, 0.0]" + VEHICLE.partition("[[forces]]")[0] + (
+            '[[forces]]\nname = "weight"\ntype = "applied"\npoint = "beam.center_of_mass"\n'
+            "force = [0.0, -10000.0]\n"
+        )
+        run = self.write_model(vehicle, RUN.format(duration=0.1, step=0.01))
+        results = self.run_to_results(run, superelements=self.folder)
+        self.assert_close(np.max(results["recovery/beam/moment_from_loads"]), 10000.0 * 6.0 / 8.0, relative=1e-6)
+        (told,) = [one["text"] for one in results.summary["warnings"] if "are spread along the body" in one["text"]]
+        self.assertIn("loads on beam.center_of_mass are spread", told)
 
 
 if __name__ == "__main__":

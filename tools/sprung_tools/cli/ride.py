@@ -10,11 +10,12 @@ vibration of the run counts in these values as a person still feels it, and in t
 starts as given, in which no equilibrium was sought, static loads and deflections are mean values over the span; of one
 that continues another run they are not known. Loads are those of all parallel members together. A tyre is also without
 load where it reaches the road but rises faster than it springs back. A moment is positive where it stretches the side
-of -y. It is that from the loads on the body; beside it stand that from its modes and the largest difference of the two,
-which tells what the modes lack. With --superelements the tool also computes the bending moment of bodies that a run
-took as rigid, from the forces on them, where the file has none: the run did not store 'recovery', or its program was
-older. Of a response file with the spectra on a random road (sprung-dynamics response), the tool prints the r.m.s.
-values and the absorbed power of the linear vehicle."""
+of -y of a body along x, else the right of its element, seen from its first end. It is that from the loads on the body;
+beside it stand that from its modes and the largest difference of the two, which tells what the modes lack. With
+--superelements the tool also computes the bending moment of bodies that a run took as rigid, from the forces on them,
+where the file has none: the run did not store 'recovery', or its program was older. Of a response file with the spectra
+on a random road (sprung-dynamics response), the tool prints the r.m.s. values and the absorbed power of the linear
+vehicle."""
 
 import argparse
 import json
@@ -61,7 +62,7 @@ TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "sto
           "rebound stop hits", "on it s")  # fmt: skip
 CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "greatest kN", "off the ground s",
            "without load s")  # fmt: skip
-BENDING = ("body", "run", "largest moment kN m", "at x m", "at s", "from modes kN m", "largest difference kN m")
+BENDING = ("body", "run", "largest moment kN m", "at x m", "y m", "at s", "from modes kN m", "largest difference kN m")
 DIFFERENCE_NOTE = (
     "remark: the largest difference is that of the two moments at one place and time, wherever they differ most; what "
     "'its modes miss' is another number (tools/README.md, Measures)"
@@ -152,7 +153,8 @@ def make_bending_rows(
             from_modes = calc_peak(run.results, body, MOMENT, FROM_MODES, window)
             both = (from_modes and from_modes.value, calc_moment_difference(run.results, body, window))
             yield (
-                body, run.label, f"{1e-3 * found.value:.4g}", f"{found.station:.3f}", f"{found.time:.3f}",
+                body, run.label, f"{1e-3 * found.value:.4g}", f"{found.x:.3f}", f"{found.y:.3f}",
+                f"{found.time:.3f}",
                 *(MISSING if value is None else f"{1e-3 * value:.4g}" for value in both),
             )  # fmt: skip
 

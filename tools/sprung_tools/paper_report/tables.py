@@ -208,7 +208,7 @@ def make_ride_column(results: ResultsFile, superelements: Path, count: int) -> d
         bending: Peak | None = find_peak(results, moments, stations, window)
     else:
         bending = calc_peak(results, "chassis", MOMENT, FROM_MODES, window)
-    moment = f"{1e-3 * bending.value:.0f}, {bending.station:.2f}" if bending else "–"
+    moment = f"{1e-3 * bending.value:.0f}, {bending.x:.2f}" if bending else "–"
     column["largest bending moment kN·m, at x m"] = moment
     return column
 

@@ -50,7 +50,7 @@ def draw_damage(axes: Axes, curves: Sequence[DrawnFatigue]) -> None:
         )
     if greatest > 0.0:
         axes.set_yscale("log")
-    axes.set_ylabel("damage of the run")
+    axes.set_ylabel("damage of a repetition")
     axes.legend(loc="best", frameon=False, fontsize=9)
 
 
@@ -83,7 +83,7 @@ def calc_spectrum(ranges: Floats, counts: Floats) -> tuple[Floats, Floats]:
 
 
 def draw_spectrum(axes: Axes, curves: Sequence[DrawnFatigue], place: Place, line: StrengthLine) -> None:
-    """Draws how many cycles of the run reach a range, beside the cycles that the range exhausts."""
+    """Draws how many cycles of a repetition reach a range, beside the cycles that the range exhausts."""
     for one in curves:
         cycles = count_at(one.fatigue, *place)
         if cycles.ranges.size:
@@ -114,7 +114,7 @@ def make_fatigue_figure(
     """Draws damage and stresses along a body, and stress and cycles at one of its places."""
     section = curves[0].fatigue.section
     side = section.sides[place.station][place.side]
-    where = f"at {section.along[place.station]:.4g} m, on the {side} side"
+    where = f"at {section.name_place(place.station)}, on the {side} side"
     caption = "nominal stresses of the beam, without welds, holes and corners; dashed: from the modes"
     heights = [PANEL_HEIGHT, 0.8 * PANEL_HEIGHT, 0.8 * PANEL_HEIGHT, PANEL_HEIGHT]
     figure, panels = make_figure(heights, f"{title}: fatigue of {body}", caption, one_axis=False)

@@ -1,5 +1,6 @@
 """Fatigue of a body's sections over a run: stresses, cycles and damage of each station and fibre."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -10,13 +11,13 @@ from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.section_stress import SectionStress, calc_section_stress, name_datasets
 from sprung_tools.signals.fatigue_damage import StrengthLine, calc_damage
-from sprung_tools.signals.rainflow import Cycles, count_cycles
+from sprung_tools.signals.rainflow import Cycles, begin_at_highest, count_cycles
 from sprung_tools.signals.spans import Span
 
 
 class Fatigue(NamedTuple):
-    """The fatigue of a body over a span of time. section: its stresses, over the span only; time: of these [n] s;
-    damage, greatest_range: of each station and fibre [stations × 2] 1, Pa."""
+    """The fatigue of a body over a span of time that is repeated. section: its stresses, over the span only; time: of
+    these [n] s; damage, greatest_range: of a repetition, for each station and fibre [stations × 2] 1, Pa."""
 
     section: SectionStress
     time: Floats
@@ -34,37 +35,51 @@ class Fatigue(NamedTuple):
 def calc_fatigue(
     results: ResultsFile, body: str, source: str, window: Span, line: StrengthLine, factor: float = 1.0
 ) -> Fatigue:
-    """The fatigue of a body. factor: multiplies all stresses. InputError if the file lacks something or does
-    not hold it at every output, or if a mean stress reaches the ultimate strength."""
+    """The fatigue of a body. factor: multiplies all stresses. InputError if the file lacks something or does not hold
+    it at every output, if the span has one output only, or if a mean stress reaches the ultimate strength."""
     for name in name_datasets(body, source):
         results.check_every_output(name)
     whole = calc_section_stress(results, body, source)
     inside = samples_between(results, *window)
+    if np.count_nonzero(inside) < 2:
+        raise InputError(f"{results.path}: error: {window[0]:g} to {window[1]:g} s has one output, expected at least 2")
     section = whole._replace(stress=factor * whole.stress[inside])
     shape = section.stress.shape[1:]
     damage, greatest = np.zeros(shape), np.zeros(shape)
     for place in np.ndindex(shape):
-        cycles = count_cycles(section.stress[:, place[0], place[1]])
+        cycles = count_history(section.stress[:, place[0], place[1]])
         greatest[place] = np.max(cycles.ranges, initial=0.0)
         try:
             damage[place] = calc_damage(line, cycles)
         except ValueError as error:
-            where = f"at {section.along[place[0]]:.4g} m of '{body}'"
+            where = f"at {section.name_place(place[0])} of '{body}'"
             raise InputError(f"{results.path}: error: {where}, {error}") from error
     return Fatigue(section, results.time[inside], damage, greatest)
 
 
+def count_history(history: Floats) -> Cycles:
+    """The cycles of a repetition of a stress history."""
+    return count_cycles(begin_at_highest(history))
+
+
 def count_at(fatigue: Fatigue, station: int, side: int) -> Cycles:
     """The cycles of a station's fibre."""
-    return count_cycles(fatigue.section.stress[:, station, side])
+    return count_history(fatigue.section.stress[:, station, side])
 
 
-def find_stations(fatigue: Fatigue, place: float) -> list[int]:
-    """The stations closest to a place along the body: one for each of the elements that meet there."""
-    distances = np.abs(fatigue.section.along - place)
-    return [int(station) for station in np.flatnonzero(distances <= np.min(distances) + 1e-9)]
+def combine_fatigue(parts: Sequence[Fatigue], repetitions: Sequence[float]) -> Fatigue:
+    """The fatigue of a duty that has each of the spans of one body so many times. Its damages add up; from one span to
+    the next no cycle is counted. ValueError if the spans do not have the same stations."""
+    first = parts[0].section
+    for part in parts:
+        if part.section.positions.shape != first.positions.shape or np.any(part.section.positions != first.positions):
+            raise ValueError("the runs do not have the same sections")
+    damage = np.sum([number * part.damage for number, part in zip(repetitions, parts)], axis=0)
+    stress, time = (np.concatenate(values) for values in zip(*((one.section.stress, one.time) for one in parts)))
+    greatest = np.max([part.greatest_range for part in parts], axis=0)
+    return Fatigue(first._replace(stress=stress), time, damage, greatest)
 
 
-def calc_life(damage: float, window: Span) -> float | None:
-    """The time until the damage is 1 if the span of the run is repeated [s]; None without damage."""
-    return (window[1] - window[0]) / damage if damage > 0.0 else None
+def calc_life(damage: float, duration: float) -> float | None:
+    """The time until the damage is 1 if this damage comes with each `duration` [s]; None without damage."""
+    return duration / damage if damage > 0.0 else None

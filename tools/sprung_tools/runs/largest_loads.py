@@ -20,18 +20,19 @@ from sprung_tools.model.rigid_body_loads import (
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.section_stress import ENDINGS, FROM_LOADS, FROM_MODES
+from sprung_tools.runs.stations import place_stations, read_stations
 from sprung_tools.signals.spans import Span
 
-LONGITUDINAL = 0  # the column of x in a station's position
 MOMENT, SHEAR, AXIAL = LOADS = ("moment", "shear", "axial")
 
 
 class Peak(NamedTuple):
-    """A load of largest size: its value with its sign [N·m or N], the station's x in the body frame [m], the time [s];
-    step: the time between the stored rows that it is the largest of [s], 0 where it is that of all outputs."""
+    """A load of largest size: its value with its sign [N·m or N], the station's x and y in the body frame [m], the time
+    [s]; step: the time between the stored rows that it is the largest of [s], 0 where it is that of all outputs."""
 
     value: float
-    station: float
+    x: float
+    y: float
     time: float
     step: float = 0.0
 
@@ -43,7 +44,14 @@ def find_peak(results: ResultsFile, values: Floats, stations: Floats, window: Sp
     row, column = np.unravel_index(np.argmax(np.abs(values[inside])), (inside.size, values.shape[1]))
     sample = inside[row]
     step = every * float(np.median(np.diff(results.time))) if every > 1 else 0.0
-    return Peak(float(values[sample, column]), float(stations[column, LONGITUDINAL]), float(results.time[sample]), step)
+    x, y = map(float, stations[column])
+    return Peak(float(values[sample, column]), x, y, float(results.time[sample]), step)
+
+
+def find_signs(load: str, stations: Floats) -> Floats:
+    """By what the values of a load at the stations are multiplied, so that all elements that are drawn over x count in
+    its direction: a moment of one that runs against it, by -1 (stations, eq. 1)."""
+    return place_stations(stations).signs if load.startswith(MOMENT) else np.ones(len(stations))
 
 
 def has_load(results: ResultsFile, body: str, load: str, source: str) -> bool:
@@ -68,12 +76,12 @@ def read_own(results: ResultsFile, body: str, name: str) -> OwnPeak | None:
     if f"{name}_station" not in there:
         return None
     value, time = (read_real(results.file, group, key) for key in (name, f"{name}_time"))
-    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
+    stations = read_stations(results, body)
     number = results.file.attribute(group, f"{name}_station", int)
     if not 0 <= number < len(stations):
         has = f"'{group}' has {name}_station = {number}"
         raise InputError(f"{results.path}: error: {has}, expected at least 0 and below {len(stations)}")
-    return OwnPeak(value, number, time)
+    return OwnPeak(value * float(find_signs(name, stations)[number]), number, time)
 
 
 def read_own_peak(results: ResultsFile, body: str, name: str, window: Span) -> Peak | None:
@@ -81,8 +89,9 @@ def read_own_peak(results: ResultsFile, body: str, name: str, window: Span) -> P
     own = read_own(results, body, name) if window == read_window(results) else None
     if own is None:
         return None
-    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
-    return Peak(own.value, float(stations[own.station, LONGITUDINAL]), own.time)
+    stations = read_stations(results, body)
+    x, y = map(float, stations[own.station])
+    return Peak(own.value, x, y, own.time)
 
 
 def calc_peak(results: ResultsFile, body: str, load: str, source: str, window: Span) -> Peak | None:
@@ -94,8 +103,8 @@ def calc_peak(results: ResultsFile, body: str, load: str, source: str, window: S
         return own
     dataset = f"recovery/{body}/{load}{ENDINGS[source]}"
     values, _ = read_numbers(results.file, dataset)
-    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
-    return find_peak(results, values, stations, window, results.file.every(dataset))
+    stations = read_stations(results, body)
+    return find_peak(results, values * find_signs(load, stations), stations, window, results.file.every(dataset))
 
 
 def find_best_peak(results: ResultsFile, body: str, load: str, window: Span) -> Peak | None:
@@ -111,8 +120,9 @@ def find_bending(results: ResultsFile, body: str, window: Span, superelements: s
     superelement = open_missing(results, body, superelements)
     if superelement is None:
         return find_best_peak(results, body, MOMENT, window)
+    moments, stations = calc_rigid_moments(results, body, superelement)
     every = find_common_rows(results, body)
-    return find_peak(results, *calc_rigid_moments(results, body, superelement), window, every)
+    return find_peak(results, moments * find_signs(MOMENT, stations), stations, window, every)
 
 
 def open_missing(results: ResultsFile, body: str, superelements: str | None) -> Superelement | None:

@@ -55,7 +55,7 @@ from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import NOMINAL
 
-JSON_FORMAT, JSON_VERSION = "sprung-measures", 3  # tools/README.md, "Measures"
+JSON_FORMAT, JSON_VERSION = "sprung-measures", 4  # tools/README.md, "Measures"
 HISTORIES, OF_HISTORIES = "histories/", ("min", "max", "rms", "mean")
 UNKNOWN = "the run has no such value (tools/README.md, Measures, tells when a value is null)"
 # The units of the measures of each kind of object; those of the summary follow from the ends of their names.
@@ -69,11 +69,11 @@ TYRE_UNITS = {
     "static_load": "N", "greatest_load": "N", "dynamic_load_rms": "N", "time_off_ground": "s", "time_without_load": "s",
 }  # fmt: skip
 LOAD_UNITS = {
-    "moment": "N m", "station": "m", "time": "s", "shear": "N", "axial": "N",
+    "moment": "N m", "x": "m", "y": "m", "time": "s", "shear": "N", "axial": "N",
     "moment_size": "N m", "shear_size": "N", "axial_size": "N",
     "moment_from_modes": "N m", "shear_from_modes": "N", "axial_from_modes": "N", "moment_difference": "N m",
 }  # fmt: skip
-STRESS_UNITS = {"highest": "Pa", "lowest": "Pa", "largest_range": "Pa", "station": "m"}
+STRESS_UNITS = {"highest": "Pa", "lowest": "Pa", "largest_range": "Pa", "x": "m", "y": "m"}
 BAND_UNITS = {f"{frequency:g}": "m/s^2" for frequency in NOMINAL}
 MODE_UNITS = {"frequency": "Hz", "damping_ratio": "1"}
 MOTION_UNITS = {"displacement": "m", "acceleration": "m/s^2", "constraint": "m"}
@@ -207,18 +207,18 @@ def measure_loads(results: ResultsFile, body: str, window: Span, superelements: 
     sizes = [None if value is None else abs(value) for value in values]
     moment, *others = values
     return combine(f"loads/{body}", LOAD_UNITS, [
-        moment, bending.station, bending.time, *others, *sizes, *(peak and peak.value for peak in from_modes),
+        moment, bending.x, bending.y, bending.time, *others, *sizes, *(peak and peak.value for peak in from_modes),
         calc_moment_difference(results, body, window),
     ])  # fmt: skip
 
 
 def measure_stresses(results: ResultsFile, body: str, window: Span) -> Measures:
-    """The stresses of a body's extreme fibres, from its loads where the file has them, else from its modes; station: of
+    """The stresses of a body's extreme fibres, from its loads where the file has them, else from its modes; x and y: of
     the stress of largest size."""
     section = calc_section_stress(results, body, list_sources(results, body)[0])
     stress = section.stress[samples_between(results, *window)]
     largest = np.unravel_index(int(np.argmax(np.abs(stress))), stress.shape)
-    values = (stress.max(), stress.min(), np.ptp(stress, axis=0).max(), section.along[largest[1]])
+    values = (stress.max(), stress.min(), np.ptp(stress, axis=0).max(), *section.positions[largest[1]])
     return combine(f"stresses/{body}", STRESS_UNITS, map(float, values))
 
 

@@ -17,7 +17,7 @@ from sprung_tools.files.array_types import Flags, Floats, Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.runs.stations import place_stations
+from sprung_tools.runs.stations import place_stations, read_stations
 from sprung_tools.runs.stored_histories import find_row_step
 
 FROM_LOADS, FROM_MODES = "loads", "modes"
@@ -28,16 +28,23 @@ SIDES = ("left", "right")
 class SectionStress(NamedTuple):
     """The stresses of a body over time.
 
-    along: place of each station [stations] m, and axis says what it is; elements: the element of each station, from 1,
-    where springs count but have no stations; sides: which way each of its two fibres lies from the centroid, such as
-    "+y" [stations × 2]; stress: of these fibres [n × stations × 2] Pa.
+    positions: of each station in the body frame [stations × 2] m; along: its place in a diagram [stations] m, and axis
+    says what it is; elements: the element of each station, from 1, where springs count but have no stations; sides:
+    which way each of its two fibres lies from the centroid, such as "+y" [stations × 2]; stress: of these fibres
+    [n × stations × 2] Pa.
     """
 
+    positions: Floats
     along: Floats
     axis: str
     elements: Integers
     sides: list[tuple[str, str]]
     stress: Floats
+
+    def name_place(self, station: int) -> str:
+        """Where a station is, in the axes of its body."""
+        x, y = self.positions[station]
+        return f"({x + 0.0:.4g}, {y + 0.0:.4g}) m"
 
 
 def list_sources(results: ResultsFile, body: str) -> list[str]:
@@ -85,16 +92,18 @@ def calc_section_stress(results: ResultsFile, body: str, source: str) -> Section
     gap = find_gap(results, body)
     if gap:
         raise InputError(f"{results.path}: error: {gap}")
-    others = [f"recovery/{body}/{name}" for name in ("station", "area", "section_modulus")]
-    axial, moment, stations, area, modulus = (
+    stations = read_stations(results, body)
+    others = [f"recovery/{body}/{name}" for name in ("area", "section_modulus")]
+    axial, moment, area, modulus = (
         read_numbers(results.file, name)[0] for name in (*name_datasets(body, source), *others)
     )
-    order, along, axis = place_stations(stations)
-    has_section = find_sections(results, body)[order]
-    order, along = order[has_section], along[has_section]
+    layout = place_stations(stations)
+    has_section = find_sections(results, body)[layout.order]
+    order, along = layout.order[has_section], layout.along[has_section]
     mean, bending = axial[:, order] / area[order], moment[:, order] / modulus[order]
     sides = [name_sides(*stations[[2 * element, 2 * element + 1]]) for element in order // 2]
-    return SectionStress(along, axis, order // 2 + 1, sides, np.stack([mean - bending, mean + bending], axis=-1))
+    stress = np.stack([mean - bending, mean + bending], axis=-1)
+    return SectionStress(stations[order], along, layout.axis, order // 2 + 1, sides, stress)
 
 
 def list_stress_remarks(results: ResultsFile, bodies: Iterable[str]) -> list[str]:

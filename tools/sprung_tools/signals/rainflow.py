@@ -3,6 +3,8 @@
 [1] ASTM E1049-85 (2017), Standard Practices for Cycle Counting in Fatigue Analysis, 5.4.4. A range counts as a cycle
 where it lies within the next one, and as half a cycle where it begins at the start of the history; what is left at the
 end counts as half cycles. rainflow_test.py has the example of its figure 6.
+[2] The same, 5.4.5: a history that is repeated is counted from its highest value to the next such value. Then all
+ranges belong to whole cycles, also those that one passage leaves open.
 """
 
 from typing import NamedTuple
@@ -30,6 +32,13 @@ def find_turning_points(history: Floats) -> Floats:
     rises = np.diff(values) > 0.0
     turns = np.concatenate([[True], rises[1:] != rises[:-1], [True]])
     return values[turns]
+
+
+def begin_at_highest(history: Floats) -> Floats:
+    """One period of a history [n] that is repeated without end, from its highest value to the next one [n + 1], as [2]
+    counts it."""
+    place = int(np.argmax(history))
+    return np.concatenate([history[place:], history[: place + 1]])
 
 
 def count_cycles(history: Floats) -> Cycles:

@@ -136,7 +136,7 @@ function fillExtremes(found) {
       button.addEventListener("click", () => clock.set(extreme.time));
       body.append(element("tr", {}, element("th", {scope: "row"}, `${quantity.name}, ${extreme.what}`),
         element("td", {class: "number"}, `${format(factor * extreme.value)} ${unit}`),
-        element("td", {class: "number"}, `${format(extreme.place, 3)} m`), element("td", {}, button)));
+        element("td", {class: "number"}, extreme.where), element("td", {}, button)));
     }
   }
   byId("load-table").replaceChildren(element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "extreme"),
