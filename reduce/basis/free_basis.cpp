@@ -72,8 +72,20 @@ void add_static(InterfaceResidual& residual, double tolerance, std::vector<Resid
   if (!chosen.empty()) residual.add(std::move(vectors));
 }
 
-void add_until_certified(InterfaceResidual& residual, double highest, double cutoff, double tolerance,
-                         Eigen::Index most, const Progress& progress, std::vector<ResidualSource>& added) {
+// Why the basis does not get better with as many vectors as there are motions.
+const char* name_obstacle(const ModalProblem& problem) {
+  return problem.num_massless > 0 ? "no other motion has mass: give points without mass of their own, as at "
+                                    "the end of a spring, a "
+                                    "[[point_masses]], or lines more elements, or take the basis "
+                                    "\"fixed-interface\", or ask for a "
+                                    "larger tolerance"
+                                  : "rounding keeps it from getting better; ask for a larger tolerance";
+}
+
+// @param num_left  motions with mass that are no free modes of the basis
+void add_until_certified(InterfaceResidual& residual, const ModalProblem& problem, double highest,
+                         double cutoff, double tolerance, Eigen::Index num_left, const Progress& progress,
+                         std::vector<ResidualSource>& added) {
   while (residual.num_loads() > 0) {
     if (progress) progress(fmt::format("residual vector {}", residual.num_vectors() + 1));
     const BandErrors errors = calc_band_errors(residual, highest, cutoff, kFarBelow * tolerance);
@@ -81,11 +93,11 @@ void add_until_certified(InterfaceResidual& residual, double highest, double cut
         residual.static_flexibility().cwiseMax(std::numeric_limits<double>::min()));
     const Eigen::Index worst = find_worst(shares);
     if (shares(worst) <= tolerance) return;
-    if (residual.num_vectors() >= most) {
+    if (residual.num_vectors() >= num_left) {
       throw support::NumericalError(
           fmt::format("the basis misses {:.3g} of an interface flexibility with {} residual vectors, "
-                      "tolerance {:.3g}: rounding keeps it from getting better; ask for a larger tolerance",
-                      shares(worst), residual.num_vectors(), tolerance));
+                      "tolerance {:.3g}: {}",
+                      shares(worst), residual.num_vectors(), tolerance, name_obstacle(problem)));
     }
     add_vector(residual, {.load = worst, .omega_squared = errors.worst_omega_squared(worst)}, added);
   }
@@ -107,14 +119,14 @@ FreeBodyBasis make_free_basis(const ModalProblem& problem, const StiffnessFactor
   InterfaceResidual residual(problem, factor, modes.pairs, request.loads);
   const Eigen::Index k = modes.pairs.omega_squared.size();
   FreeBodyBasis basis;
-  if (!std::isinf(modes.next_omega_squared)) {
+  if (!certificate.is_complete) {
     if (request.all_residual) add_all(residual, basis.residuals);
     const double highest = std::pow(2.0 * std::numbers::pi * request.highest_hz, 2);
     const bool is_large = residual.size() > kMostSimplicial || residual.num_loads() > kFewLoads;
     if (is_large && residual.num_loads() > 0 && residual.num_vectors() == 0)
       add_static(residual, std::max(request.tolerance, kSmallestStaticShare), basis.residuals);
-    add_until_certified(residual, highest, calc_cutoff(certificate), request.tolerance, problem.size() - k,
-                        request.progress, basis.residuals);
+    add_until_certified(residual, problem, highest, calc_cutoff(certificate), request.tolerance,
+                        problem.num_modes() - k, request.progress, basis.residuals);
   }
   const EigenPairs ritz = residual.ritz();
   const Eigen::Index m = ritz.omega_squared.size();

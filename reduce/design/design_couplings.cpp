@@ -44,9 +44,20 @@ std::vector<double> read_weights(const TomlTable& table, std::size_t num_leaders
   return numbers;
 }
 
+// Whether an element that is no spring has the node.
+bool is_on_line(const fem::BeamModel& model, int node) {
+  return std::any_of(model.mesh.elements.begin(), model.mesh.elements.end(), [&](const auto& element) {
+    const bool is_spring = model.sections[static_cast<std::size_t>(element.section)].bushing.has_value();
+    return !is_spring && (element.first == node || element.second == node);
+  });
+}
+
 void read_average(const TomlTable& table, fem::BeamModel& model) {
   expect_keys(table, {"point", "of", "weights"});
   const int node = read_follower(model, table.at("point"));
+  if (is_on_line(model, node))
+    throw table.at("point").error(
+        "is a node of a line, which an average would hold: put it where no line has a node");
   std::vector<int> leaders;
   for (const TomlValue& name : table.at("of").items()) {
     leaders.push_back(find_named_node(model.mesh, name));

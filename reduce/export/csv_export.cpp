@@ -77,10 +77,12 @@ ExportReport export_csv(const Superelement& s, const std::string& prefix) {
                                                        {"_modes.csv", format_mode_table(s)},
                                                        {"_values.csv", format_values(s)}};
   ExportReport report;
+  TextFiles written;
   for (const auto& [ending, text] : files) {
     report.paths.emplace_back(prefix + ending);
-    write_text_file(report.paths.back(), text);
+    written.add(report.paths.back(), text);
   }
+  written.commit();
   report.left_out = {"the design's text and the hashes of its files"};
   return report;
 }

@@ -104,8 +104,10 @@ ExportReport export_exudyn(const Superelement& s, const std::string& prefix) {
   file.matrix("stiffnessMatrixReduced", s.stiffness);
   write_rigid(s.inertia, file);
   write_coupling(s.inertia, file);
+  TextFiles nodes;
+  nodes.add(report.paths.back(), format_node_table(s));
   file.commit();
-  write_text_file(report.paths.back(), format_node_table(s));
+  nodes.commit();
   report.left_out = {
       "damping: Exudyn takes two factors, of the mass and of the stiffness",
       "rotations of the nodes: Exudyn's nodes of a flexible body have displacements alone",

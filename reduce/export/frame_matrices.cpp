@@ -45,10 +45,12 @@ std::vector<std::filesystem::path> write_frame_matrices(const Design& design,
       {"_freedoms.csv", format_freedoms(design.model.mesh)},
       {"_nodes.csv", format_nodes(design.model.mesh)}};
   std::vector<std::filesystem::path> paths;
+  TextFiles written;
   for (const auto& [ending, text] : files) {
     paths.emplace_back(prefix + ending);
-    write_text_file(paths.back(), text);
+    written.add(paths.back(), text);
   }
+  written.commit();
   return paths;
 }
 

@@ -21,10 +21,12 @@ ExportReport export_matrix_market(const Superelement& s, const std::string& pref
       {"_nodes.csv", format_node_table(s)},
       {"_modes.csv", format_mode_table(s)}};
   ExportReport report;
+  TextFiles written;
   for (const auto& [ending, text] : files) {
     report.paths.emplace_back(prefix + ending);
-    write_text_file(report.paths.back(), text);
+    written.add(report.paths.back(), text);
   }
+  written.commit();
   report.left_out = {"section loads, deflections under loads, geometric stiffness and the certificate"};
   return report;
 }

@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "tools/support/errors/input_error.h"
-#include "tools/support/files/temporary_file.h"
 
 namespace sprung::reduce {
 
@@ -13,13 +12,22 @@ std::string format_real(double number) {
   return fmt::format("{:.17g}", number == 0.0 ? 0.0 : number);  // no −0
 }
 
-void write_text_file(const std::filesystem::path& path, std::string_view text) {
-  support::TemporaryFile temporary(path);
-  std::ofstream stream(temporary.path(), std::ios::binary | std::ios::trunc);
+void TextFiles::add(const std::filesystem::path& path, std::string_view text) {
+  const auto& file = written_.emplace_back(std::make_unique<support::TemporaryFile>(path));
+  std::ofstream stream(file->path(), std::ios::binary | std::ios::trunc);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   if (!stream) throw support::InputError({.path = path.string()}, "could not be written");
-  temporary.rename_to_target();
+}
+
+void TextFiles::commit() {
+  for (const auto& file : written_) file->rename_to_target();
+}
+
+void write_text_file(const std::filesystem::path& path, std::string_view text) {
+  TextFiles files;
+  files.add(path, text);
+  files.commit();
 }
 
 std::string format_matrix_market(const Eigen::MatrixXd& matrix, std::string_view comment) {

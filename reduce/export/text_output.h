@@ -3,13 +3,29 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "tools/support/files/temporary_file.h"
 
 namespace sprung::reduce {
 
 /// A number with all its digits, as text.
 std::string format_real(double number);
+
+/// Files that belong together: they get their names when all are written, so that a full disk leaves those of
+/// before. Checked by tests/reduce/export/program_export_test.py
+class TextFiles {
+ public:
+  /// @throws support::InputError if it cannot be written
+  void add(const std::filesystem::path& path, std::string_view text);
+  void commit();  ///< @throws support::InputError if a name cannot be given
+
+ private:
+  std::vector<std::unique_ptr<support::TemporaryFile>> written_;
+};
 
 /// Writes a file whole or not at all.
 /// @throws support::InputError if it cannot be written

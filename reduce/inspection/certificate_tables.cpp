@@ -128,6 +128,8 @@ std::string format_certificate(const Superelement& s) {
          one.error >= kUnbounded ? "" : fmt::format("{:.3g}", one.worst_hz)});
   }
   if (!certificate.interface.empty()) text += fmt::format("\n{}", interface.str());
+  if (certificate.is_bounded() && !certificate.interface.empty())
+    text += "The errors are those of the undamped body.\n";
   return text;
 }
 

@@ -14,6 +14,7 @@ namespace sprung::reduce {
 namespace {
 
 constexpr double kOnBody = 1e-6;  // of the radius
+constexpr double kAlike = 1e-4;  // of the largest displacement: of parts of a body that are joined at a place
 
 double calc_radius(const Superelement& s) {
   return s.node_positions.colwise().norm().maxCoeff();
@@ -76,10 +77,9 @@ class PlaceFinder {
     std::sort(items_.begin(), items_.end());
   }
 
-  // The nearest one within the tolerance; of equally near ones the last.
-  std::optional<Place> find(const Eigen::Vector2d& position) const {
-    std::optional<Place> best;
-    double nearest = tolerance_;
+  // All within the tolerance.
+  std::vector<Place> find(const Eigen::Vector2d& position) const {
+    std::vector<Place> places;
     const std::pair<double, Eigen::Index> least(position.x() - extent_ - tolerance_, 0);
     for (auto item = std::lower_bound(items_.begin(), items_.end(), least);
          item != items_.end() && item->first <= position.x() + tolerance_; ++item) {
@@ -88,11 +88,9 @@ class PlaceFinder {
       const double length_squared = along.squaredNorm(), share = (position - first).dot(along);
       const double xi = length_squared > 0.0 ? std::clamp(share / length_squared, 0.0, 1.0) : 0.0;
       const double distance = (first + xi * along - position).norm();
-      if (distance > nearest || (best && distance == nearest && item->second < best->element)) continue;
-      nearest = distance;
-      best = {.element = item->second, .xi = xi};
+      if (distance <= tolerance_) places.push_back({.element = item->second, .xi = xi});
     }
-    return best;
+    return places;
   }
 
  private:
@@ -140,6 +138,30 @@ Eigen::VectorXd calc_weights(const Superelement& s) {
   return weights;
 }
 
+// The number of the node at a place of a body, if there is one.
+std::optional<std::int64_t> find_node_id(const Superelement& s, const Place& place) {
+  if (s.elements.cols() == 0) return s.node_ids[static_cast<std::size_t>(place.element)];
+  if (place.xi > 0.0 && place.xi < 1.0) return {};
+  return s.node_ids[static_cast<std::size_t>(s.elements(place.xi == 0.0 ? 0 : 1, place.element))];
+}
+
+// 2×n: the displacements of a body where it has these places, of which one may be the node with this number.
+// None where parts of the body that are not joined lie above each other, and no number tells them apart.
+std::optional<Eigen::MatrixXd> find_displacements(const Superelement& s, const Eigen::MatrixXd& shapes,
+                                                  const std::vector<Place>& places, std::int64_t node_id) {
+  for (const Place& place : places) {
+    if (find_node_id(s, place) == node_id) return calc_displacements(s, shapes, place);
+  }
+  std::optional<Eigen::MatrixXd> found;
+  const double alike = kAlike * shapes.cwiseAbs().maxCoeff();
+  for (const Place& place : places) {
+    Eigen::MatrixXd here = calc_displacements(s, shapes, place);
+    if (found && (here - *found).cwiseAbs().maxCoeff() > alike) return {};
+    if (!found) found = std::move(here);
+  }
+  return found;
+}
+
 struct Rows {
   std::vector<Eigen::MatrixXd> of_nodes, of_other;  // 2×n each
   double share = 0.0;
@@ -151,7 +173,7 @@ struct ShapedBody {
   const Eigen::MatrixXd& shapes;
 };
 
-// The nodes of a body that lie on another one, both bodies' displacements there.
+// The nodes of a body whose place on another one is known, both bodies' displacements there.
 // @param offset  of the other one's places from those of the body
 Rows sample_nodes(const ShapedBody& of_nodes, const ShapedBody& of_other, const Eigen::Vector2d& offset) {
   const Superelement &body = of_nodes.body, &other = of_other.body;
@@ -159,11 +181,13 @@ Rows sample_nodes(const ShapedBody& of_nodes, const ShapedBody& of_other, const 
   const Eigen::VectorXd weights = calc_weights(body);
   const PlaceFinder finder(other);
   for (Eigen::Index node = 0; node < body.num_nodes(); ++node) {
-    const std::optional<Place> place = finder.find(body.node_positions.col(node) + offset);
-    if (!place) continue;
+    const std::optional<Eigen::MatrixXd> displacements =
+        find_displacements(other, of_other.shapes, finder.find(body.node_positions.col(node) + offset),
+                           body.node_ids[static_cast<std::size_t>(node)]);
+    if (!displacements) continue;
     const double weight = std::sqrt(weights(node));
     rows.of_nodes.emplace_back(weight * of_nodes.shapes.middleRows(3 * node, 2));
-    rows.of_other.emplace_back(weight * calc_displacements(other, of_other.shapes, *place));
+    rows.of_other.emplace_back(weight * *displacements);
   }
   rows.share = static_cast<double>(rows.of_nodes.size()) / body.num_nodes();
   return rows;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "reduce/design/design_couplings.h"
 #include "reduce/modes/held_node.h"
 #include "reduce/modes/rounding_error.h"
 
@@ -44,6 +45,7 @@ std::string describe_soft_reference(const Design& design, const BodyMatrices& ma
   const fem::Mesh& mesh = design.model.mesh;
   const fem::Mesh::NamedNode* stiffest = nullptr;
   for (const fem::Mesh::NamedNode& point : mesh.named_nodes) {
+    if (follows(design.model, point.node)) continue;
     if (stiffest == nullptr || stiffness_at(point.node) > stiffness_at(stiffest->node)) stiffest = &point;
   }
   const bool is_stiffer =

@@ -120,6 +120,19 @@ bool is_spoilt_by_reference(const CheckResult& failed, const BodyMatrices& matri
   return is_of_hold && estimate_held_rounding(matrices).is_of_soft_reference();
 }
 
+// What to change where a check fails.
+const char* name_remedy(const Design& design, const BodyMatrices& matrices) {
+  if (design.matrices)
+    return "the matrices are not exactly those of a body: masses that act along one axis more than along the "
+           "other, and numbers that were cut short, are usual causes";
+  if (matrices.free.num_massless > 0)
+    return "a point without mass of its own, as at the end of a spring, may be the cause: give it a "
+           "[[point_masses]], or lines more elements, or ask for a larger tolerance";
+  return "stiffnesses or masses differ so much that rounding spoils it: refine the mesh less, or make what "
+         "is "
+         "soft stiffer, or rigid, or a body of its own";
+}
+
 void require_checks(const std::vector<CheckResult>& checks, const Design& design,
                     const BodyMatrices& matrices) {
   for (const CheckResult& check : checks) {
@@ -130,14 +143,9 @@ void require_checks(const std::vector<CheckResult>& checks, const Design& design
                       design.reduction.basis == BasisKind::kFree ? "" : "; or try the basis \"free\"",
                       check.name, check.value, check.tolerance));
     }
-    throw NumericalError(fmt::format(
-        "the check '{}' of the reduced body failed: {:.3g}, tolerance {:.3g}; {}", check.name, check.value,
-        check.tolerance,
-        design.matrices
-            ? "the matrices are not exactly those of a body: masses that act along one axis "
-              "more than along the other, and numbers that were cut short, are usual causes"
-            : "stiffnesses or masses differ so much that rounding spoils it: refine the mesh less, or make "
-              "what is soft stiffer, or rigid, or a body of its own"));
+    throw NumericalError(
+        fmt::format("the check '{}' of the reduced body failed: {:.3g}, tolerance {:.3g}; {}", check.name,
+                    check.value, check.tolerance, name_remedy(design, matrices)));
   }
 }
 

@@ -37,6 +37,19 @@ class ExportTest(ExportCase):
             if rest == CLAMPED:
                 self.assert_frequencies(read["stiffness"], read["mass"], expected.clamped_frequencies())
 
+    def test_files_that_cannot_all_be_written_leave_those_of_before(self):
+        self.make_body().close()
+        for target, last in (("csv", "body_values.csv"), ("matrix-market", "body_modes.csv"),
+                             ("exudyn", "body_nodes.csv")):  # fmt: skip
+            with self.subTest(target=target):
+                for path in self.folder.glob("body[_.]*"):
+                    path.unlink()
+                (self.folder / last).mkdir()
+                result = self.run_program("export", "out/beam.h5", "--to", target, "-o", "body")
+                self.assertEqual(result.returncode, 2, result.stdout)
+                self.assertEqual([path.name for path in self.folder.glob("body*")], [last])
+                (self.folder / last).rmdir()
+
     def test_csv_has_every_number_and_name_of_the_file(self):
         """Integers and texts were missing, so that rows of /resultants belonged to no element."""
         with self.make_body() as file:

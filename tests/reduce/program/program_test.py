@@ -197,6 +197,51 @@ class Program(ReduceTestCase):
         self.assertEqual(result.returncode, 0)
         self.assertIn("-4.151", result.stdout)  # √(1561.8057/1700) − 1
 
+    def test_diff_of_a_body_whose_lines_cross_without_being_joined(self):
+        """Where a line has a node on the other one, each has its own displacement. With finer lines the modes stay."""
+        cross = (
+            '[materials.steel]\nyoungs_modulus = 2.1e11\ndensity = 7850.0\n[sections.bar]\nmaterial = "steel"\n'
+            'shape = "rectangle"\nwidth = 0.05\nheight = 0.05\n[points]\na = [-1.0, -0.5]\nb = [1.0, 0.5]\n'
+            'c = [1.0, -0.5]\nd = [-1.0, 0.5]\n'
+            '[[lines]]\nthrough = ["a", "b"]\nsection = "bar"\nelements = {}\n'
+            '[[lines]]\nthrough = ["d", "c"]\nsection = "bar"\nelements = {}\n'
+            '[[lines]]\nthrough = ["a", "d"]\nsection = "bar"\nelements = 2\n[reference]\npoint = "a"\n'
+            "[reduction]\nhighest_frequency = 100.0\n[modes]\ndamping_ratio = 0.01\n"
+        )
+        for name, elements in (("coarse", (4, 3)), ("fine", (8, 7))):
+            (self.folder / f"{name}.toml").write_text(cross.format(*elements), encoding="utf-8")
+        self.build("coarse.toml", "fine.toml")
+        for other in ("coarse", "fine"):
+            diff = json.loads(self.run_program("diff", "out/coarse.h5", f"out/{other}.h5", "--json").stdout)
+            self.assertGreater(min(mode["mac"] for mode in diff["modes"]), 0.999)
+            self.assertTrue(all(mode["new_modes"] for mode in diff["modes"]))
+
+    def test_what_points_without_mass_miss_is_told_with_its_remedies(self):
+        """A link of two elements has six elastic motions with mass; all of them leave 98 % of the flexibility of the
+        rubber at its eyes, which have no mass."""
+        link = (
+            '[materials.steel]\nyoungs_modulus = 2.1e11\ndensity = 7850.0\n[sections.bar]\nmaterial = "steel"\n'
+            'shape = "tube"\nouter_diameter = 0.03\nwall = 0.004\n[points]\neye = [-0.24, 0.0]\na = [-0.2, 0.0]\n'
+            'm = [0.0, 0.0]\nb = [0.2, 0.0]\nother_eye = [0.24, 0.0]\n[[lines]]\nthrough = ["a", "m", "b"]\n'
+            'section = "bar"\nelements = {elements}\n'
+            '[[springs]]\nfrom = "a"\nto = "eye"\naxial_stiffness = 1e7\nrotational_stiffness = 2000.0\n'
+            '[[springs]]\nfrom = "b"\nto = "other_eye"\naxial_stiffness = 1e7\nrotational_stiffness = 2000.0\n'
+            '{more}[reference]\npoint = "m"\n[interface]\neye = "xyr"\nother_eye = "xyr"\n'
+            "[reduction]\nhighest_frequency = {highest}\n[modes]\ndamping_ratio = 0.01\n"
+        )
+        eyes = "".join(
+            f'[[point_masses]]\npoint = "{eye}"\nmass = 0.05\ninertia = 1e-5\n' for eye in ("eye", "other_eye")
+        )
+        for elements, highest, more, misses in ((1, 1000.0, "", r"0\.\d+"), (1, 2e5, "", r"0\.9\d+"),
+                                                (2, 1000.0, "", None), (1, 1000.0, eyes, None)):  # fmt: skip
+            with self.subTest(elements=elements, highest=highest, more=more):
+                text = link.format(elements=elements, highest=highest, more=more)
+                (self.folder / "link.toml").write_text(text, encoding="utf-8")
+                result = self.build("link.toml", code=3 if misses else 0)
+                if misses:
+                    said = rf"the basis misses {misses} of an interface flexibility with \d residual vectors, tolerance"
+                    self.assertRegex(result.stderr, said + r" 0\.01: no other motion has mass: give points without")
+
     # f ∝ √I of a clamped beam in bending; its axial modes have nothing of I.
 
     def test_sensitivity_tells_what_each_number_of_a_design_changes(self):
