@@ -35,6 +35,9 @@ class Designs(StudyCase):
         for modes in ("5", "10", "20"):
             low, high = (float(row[column]) for row in rows if row["modes.beam"] == modes)
             self.assertAlmostEqual(high / low, 2.0, delta=1e-8)
+        settings = [row["set"] for row in rows]
+        self.assertEqual(settings[0], f"modes.beam=5 {self.MODULUS}=100000000000.0")
+        self.assertEqual(len(set(settings)), 6)  # rows of different designs differ
 
     def test_the_frequency_is_that_of_a_design_written_by_hand(self):
         self.write_design_study([3e11])

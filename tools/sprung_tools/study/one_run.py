@@ -53,12 +53,14 @@ PROGRAM = "program/"  # what the names of values in the program's own JSON begin
 
 
 class Task(NamedTuple):
-    """A run that is to be made. superelements: the files that it reads; problem: why it cannot be made, else empty."""
+    """A run that is to be made. superelements: the files that it reads; problem: why it cannot be made, else empty;
+    of_designs: what is changed of designs, as `design.NAME.KEY=VALUE`."""
 
     hash: str
     overrides: tuple[str, ...]
     superelements: tuple[Path, ...]
     problem: str
+    of_designs: tuple[str, ...] = ()
 
 
 class Measured(NamedTuple):

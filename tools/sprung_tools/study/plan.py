@@ -24,9 +24,10 @@ ROW_VERSION = 3  # counts up when the same input gives other rows
 
 
 class Draft(NamedTuple):
-    """A run before stage one. changed: of the run and vehicle file, without a random road."""
+    """A run before stage one. changed: of the run and vehicle file, without a random road; of_designs: of designs."""
 
     changed: dict[str, Any]
+    of_designs: dict[str, Any]
     variants: dict[str, Variant]
     road: dict[str, Any] | None
     road_hash: str
@@ -51,6 +52,7 @@ class Planner:
             changed |= parameter.settings(value)
         all_changes = json.dumps(changed, default=str, sort_keys=True)
         road_changes = take_inside(changed, RANDOM_ROAD) if self.study.random_road else {}
+        of_designs = {key: value for key, value in changed.items() if cut_key(key, DESIGN)}
         variants: dict[str, Variant] = {}
         road, road_hash, problem = None, "", ""
         try:
@@ -60,7 +62,7 @@ class Planner:
                 road, road_hash = self._make_road(self.study.random_road | road_changes)
         except InputError as error:
             problem, road_hash = str(error), all_changes  # a row of its own
-        return Draft(changed, variants, road, road_hash, problem)
+        return Draft(changed, of_designs, variants, road, road_hash, problem)
 
     def finish(self, draft: Draft, failures: Mapping[Path, str]) -> Task:
         """The task of a run, after stage one. failures: folders of variants that could not be reduced, and why."""
@@ -78,7 +80,8 @@ class Planner:
                 parts += [file.name, self._hash(file)]
         if draft.road is not None:
             overrides += format_overrides({"road": draft.road})
-        return Task(hash_parts([part.encode() for part in parts]), tuple(overrides), superelements, problem)
+        of_designs = tuple(format_overrides(draft.of_designs))
+        return Task(hash_parts([part.encode() for part in parts]), tuple(overrides), superelements, problem, of_designs)
 
     def _make_variant(self, design: Path, changes: Mapping[str, Any]) -> Variant:
         key = json.dumps([str(design), changes])

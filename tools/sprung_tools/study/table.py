@@ -13,6 +13,7 @@ from sprung_tools.files.array_types import Floats
 from sprung_tools.files.toml_text import format_value
 from sprung_tools.study.description import COLUMNS_BEFORE, COLUMNS_BEHIND
 from sprung_tools.study.execution import Finished
+from sprung_tools.study.one_run import Task
 
 FORMAT, VERSION = "sprung-study", 1
 
@@ -71,6 +72,11 @@ def format_number(value: float) -> str:
     return "" if np.isnan(value) else repr(float(value))
 
 
+def format_settings(task: Task) -> str:
+    """All that a run changes."""
+    return " ".join((*task.overrides, *task.of_designs))
+
+
 def format_csv(finished: Finished, columns: list[Column]) -> str:
     """The table as CSV."""
     text = io.StringIO()
@@ -81,7 +87,7 @@ def format_csv(finished: Finished, columns: list[Column]) -> str:
     for number, (point, task, row) in enumerate(zip(finished.points, finished.tasks, finished.rows)):
         writer.writerow([
             number + 1, *map(format_cell, point), *(format_number(one.values[number]) for one in columns),
-            row.exit_code, int(row.converged), "; ".join(row.warnings), row.error, " ".join(task.overrides), row.hash,
+            row.exit_code, int(row.converged), "; ".join(row.warnings), row.error, format_settings(task), row.hash,
         ])  # fmt: skip
     return text.getvalue()
 
@@ -105,7 +111,7 @@ def make_hdf5(finished: Finished, columns: list[Column]) -> bytes:
         write_dataset(file, "converged", np.array([int(row.converged) for row in rows]))
         texts = {
             "warnings": ["; ".join(row.warnings) for row in rows], "error": [row.error for row in rows],
-            "set": [" ".join(task.overrides) for task in finished.tasks], "hash": [row.hash for row in rows],
+            "set": [format_settings(task) for task in finished.tasks], "hash": [row.hash for row in rows],
         }  # fmt: skip
         for name, values in texts.items():
             write_dataset(file, name, encode_texts(values))
