@@ -185,6 +185,33 @@ class Errors(StudyCase):
             with self.subTest(said), self.assertRaisesRegex(InputError, rf"study\.toml:{where}: error: .*{said}"):
                 self.read(text)
 
+    def test_no_key_is_set_twice_in_whatever_spelling(self):
+        (self.folder / "vehicle.toml").write_text(
+            '[[forces]]\nname = "tyre"\n[[forces]]\nname = "spring"\n[[forces]]\nname = "0"\n', encoding="utf-8"
+        )
+        name = SPEED.replace("speed", "vehicle.forces.spring.stiffness")
+        height = SPEED.replace("speed", "road.height")
+        for text, where, said in (
+            (name + SPEED.replace('"speed"', """'vehicle.forces."spring".stiffness'"""), "7:8",
+             "'vehicle.forces.\"spring\".stiffness' means the same as 'vehicle.forces.spring.stiffness', which is set"),
+            (name + SPEED.replace("speed", "vehicle.forces.1.stiffness"), "7:8",
+             "'vehicle.forces.1.stiffness' means the same as 'vehicle.forces.spring.stiffness', which is set, too"),
+            (name + SPEED.replace("speed", "vehicle.forces.1"), "4:8",
+             "'vehicle.forces.spring.stiffness' lies in 'vehicle.forces.1', which is set as a whole, too"),
+            ('[[parameters]]\nname = "p"\nkeys = ["speed", "\'speed\'"]\nvalues = [[1, 2]]\n', "5:19",
+             "''speed'' means the same as 'speed', which is set, too"),
+            ("[set]\n'\"road\".height' = 1\n" + height, "4:1",
+             "'\"road\".height' means the same as 'road.height', which is set, too"),
+            ("[set]\nroad.height = 1\n" + height, "6:8", "'road.height' is set for all runs by 'set', too"),
+            ('[set]\n"a..b" = 1\n' + SPEED, "4:1", "'a..b' is no key: names with dots between"),
+        ):  # fmt: skip
+            with self.subTest(said), self.assertRaisesRegex(InputError, rf"study\.toml:{where}: error: {said}"):
+                self.read(HEAD + text)
+        quoted = """vehicle.forces.\\"0\\".stiffness"""
+        others = ("vehicle.forces.0.stiffness", quoted, "vehicle.forces.9.stiffness")
+        self.assertEqual(len(self.read(HEAD + name + "".join(SPEED.replace("speed", one) for one in others)).parameters),
+                         4)  # fmt: skip
+
     def test_a_random_road_may_have_what_it_needs_from_parameters_and_from_what_is_set(self):
         for text in ('set.random_road.spacing = 0.1\n', 'set = { "random_road.spacing" = 0.1 }\n'):
             study = self.read(HEAD + text + "[random_road]\nlength = 9.0\n"

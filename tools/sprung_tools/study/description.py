@@ -76,7 +76,8 @@ def fail_at_key(study: Study, key: str, what: str) -> InputError:
         if key in parameter.keys:
             name = "key" if len(parameter.keys) == 1 else "keys"
             return study.file.fail((*parameter.place, name), what, fragment=key)
-    return study.file.fail(("set", *key.split(".")), what)
+    whole = ("set", key)  # a key with dots that stands in quotes
+    return study.file.fail(whole if whole in study.file.places() else ("set", *key.split(".")), what)
 
 
 def flatten_settings(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -12,6 +12,9 @@ from sprung_tools.study.description import (
     fail_at_key,
     flatten_settings,
 )
+from sprung_tools.study.same_keys import Parts, read_values, resolve_key
+
+NO_KEY = "is no key: names with dots between, in quotes where they hold a dot"
 
 
 def check_study(study: Study) -> None:
@@ -45,13 +48,13 @@ def check_keys(study: Study) -> None:
         for key in parameter.keys:
             parts = split_key(key)
             if not parts:
-                what = f"'{key}' is no key: names with dots between, in quotes where they hold a dot"
-                raise study.file.fail(at, what, fragment=key)
-            if parts[0] == DESIGN:
+                raise study.file.fail(at, f"'{key}' {NO_KEY}", fragment=key)
+            first = strip_quotes(parts[0])
+            if first == DESIGN:
                 if not any(cut_key(key, DESIGN, name) for name in study.designs):
                     there = ", ".join(map(format_key, study.designs)) or "none"
                     raise study.file.fail(at, f"'{key}' is no key of a design (designs: {there})", fragment=key)
-            elif parts[0] == RANDOM_ROAD and len(parts) > 1:
+            elif first == RANDOM_ROAD and len(parts) > 1:
                 if cut_key(key, RANDOM_ROAD) not in ROAD_KEYS:
                     raise study.file.fail(at, f"'{key}' is unknown (keys of the random road: {', '.join(ROAD_KEYS)})",
                                           fragment=key)  # fmt: skip
@@ -60,10 +63,20 @@ def check_keys(study: Study) -> None:
 
 
 def check_overlaps(study: Study) -> None:
-    """Throws InputError for a key inside the table that another one sets: one of them would have no effect."""
-    keys = [*(key for one in study.parameters for key in one.keys), *flatten_settings(study.overrides)]
-    parts = {key: tuple(map(strip_quotes, split_key(key))) for key in keys}
+    """Throws InputError for a key that another one sets, or inside the table that another one sets: one of them would
+    have no effect."""
+    of_parameters, of_all = [key for one in study.parameters for key in one.keys], flatten_settings(study.overrides)
+    for key in of_all:
+        if not split_key(key):
+            raise fail_at_key(study, key, f"'{key}' {NO_KEY}")
+        if key in of_parameters:
+            raise fail_at_key(study, key, f"'{key}' is set for all runs by 'set', too")
+    values = read_values(study)
+    parts = {key: resolve_key(key, values) for key in (*of_parameters, *of_all)}
+    first: dict[Parts, str] = {}
     for key, own in parts.items():
+        if first.setdefault(own, key) != key:
+            raise fail_at_key(study, key, f"'{key}' means the same as '{first[own]}', which is set, too")
         if study.random_road and own[:1] == (ROAD,):
             raise fail_at_key(study, key, f"'{key}' has no effect: [random_road] makes the road")
         for other, whole in parts.items():
