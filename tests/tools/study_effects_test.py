@@ -1,5 +1,6 @@
 """study/effects.py: main effects of tables whose variation is known."""
 
+import itertools
 import unittest
 from types import SimpleNamespace
 
@@ -11,9 +12,13 @@ from sprung_tools.study.page import pack_values
 from sprung_tools.study.table import Column
 
 
-def make_study(names, points):
-    parameters = [SimpleNamespace(name=one) for one in names]
-    return SimpleNamespace(study=SimpleNamespace(parameters=parameters), points=points)
+def make_study(names, points, **crossed):
+    """A study of random points. crossed: values of the last parameters, which are combined with every point."""
+    parameters = [SimpleNamespace(name=one, crossed=False, values=()) for one in names]
+    parameters += [SimpleNamespace(name=name, crossed=True, values=values) for name, values in crossed.items()]
+    all_points = [(*point, *more) for point in points for more in itertools.product(*crossed.values())]
+    study = SimpleNamespace(parameters=parameters, sampling=SimpleNamespace(method="latin-hypercube"))
+    return SimpleNamespace(study=study, points=all_points)
 
 
 class Effects(unittest.TestCase):
@@ -45,7 +50,8 @@ class Effects(unittest.TestCase):
     def test_groups_have_three_runs_also_where_others_have_failed(self):
         values = np.random.default_rng(1).permutation(16).astype(float)
         measured = np.where(np.arange(16) < 11, values, np.nan)
-        (effect,) = calc_effects(make_study(("a",), [(one,) for one in values]), [Column("o/y", "y", "", measured)])
+        points = list(zip(values, values[::-1]))
+        effect, _ = calc_effects(make_study(("a", "b"), points), [Column("o/y", "y", "", measured)])
         self.assertEqual(sorted(effect.counts), [3, 4, 4])
         self.assertLess(effect.chance, 1.0)
 
@@ -87,8 +93,54 @@ class Effects(unittest.TestCase):
         first, second = calc_effects(make_study(("a", "b"), points), [column])
         self.assertIsNone(second.share)
         self.assertFalse(second.is_seen)
-        # Each run a group of its own: they explain everything, and so do they by chance.
-        self.assertEqual((first.share, first.chance, first.is_seen), (1.0, 1.0, False))
+        # Among the good runs nothing else varies.
+        self.assertEqual((first.share, first.chance, first.is_seen), (1.0, 0.0, True))
+
+    def test_groups_of_one_run_explain_everything_and_so_do_they_by_chance(self):
+        points = [("a", 1.0), ("b", 2.0), ("c", 4.0)]
+        first, _ = calc_effects(make_study(("a", "b"), points), [Column("o/y", "y", "", np.array([1.0, 5.0, 7.0]))])
+        self.assertAlmostEqual(first.share, 1.0)
+        self.assertEqual((first.chance, first.is_seen), (1.0, False))
+
+    def test_where_nothing_else_varies_a_parameter_explains_everything_however_many_values_it_has(self):
+        values = np.linspace(0.1, 8.0, 30)
+        column = Column("o/y", "y", "", np.sin(values))
+        (effect,) = calc_effects(make_study(("a",), [(one,) for one in values]), [column])
+        self.assertAlmostEqual(effect.share, 1.0, places=12)
+        self.assertEqual((effect.chance, effect.is_seen, effect.is_of_ranges), (0.0, True, False))
+        self.assertEqual(list(effect.counts), [6] * 5)  # means of 30 values are drawn as five
+
+    def test_over_a_grid_of_many_values_the_shares_are_those_of_the_values(self):
+        # Of sin a + b over whole turns of a the variances are 1/2 and (n² − 1)/12 of b = 0, 1, … n − 1.
+        turn = np.arange(40) * 2.0 * np.pi / 20.0
+        points = [(a, float(b)) for a in turn for b in range(3)]
+        column = Column("o/y", "y", "", np.array([np.sin(a) + b for a, b in points]))
+        first, second = calc_effects(make_study(("a", "b"), points), [column])
+        self.assertAlmostEqual(first.share, 0.5 / (0.5 + 8.0 / 12.0), places=12)
+        self.assertAlmostEqual(first.share + second.share, 1.0, places=12)
+
+    def test_of_crossed_runs_only_the_points_are_independent(self):
+        """Irrelevant parameters of a study with a crossed one are seen in one case of twenty."""
+        random = np.random.default_rng(3)
+        seen = {"relevant": [], "irrelevant": [], "seed": [], "none": []}
+        for _ in range(1000):
+            points = random.permuted(np.tile(np.arange(15.0), (2, 1)), axis=1).T.tolist()
+            of_point, of_seed = random.standard_normal(15), random.standard_normal(8)
+            values = of_point[:, None] + 0.3 * of_seed + 0.2 * of_point[:, None] * of_seed
+            by_first = 0.4 * np.array([first for first, _ in points])[:, None] + values
+            columns = [Column("o/y", "y", "", np.repeat(one.ravel(), 2)) for one in (values, by_first)]
+            study = make_study(("relevant", "irrelevant"), points, seed=tuple(range(8)), none=(0, 1))
+            first, second, *_ = effects = calc_effects(study, columns)
+            seen["relevant"].append(second.is_seen)
+            seen["irrelevant"].append(effects[2].is_seen)
+            seen["seed"].append(effects[4].is_seen)
+            seen["none"].append(effects[6].share)
+            self.assertEqual(list(first.counts), [3 * 16] * 5)
+        tolerance = 4.0 * np.sqrt(0.05 * 0.95 / 1000)
+        self.assertAlmostEqual(np.mean(seen["irrelevant"]), 0.05, delta=tolerance)
+        self.assertGreater(np.mean(seen["relevant"]), 0.5)
+        self.assertTrue(all(seen["seed"]))  # its values stand with the same points
+        self.assertLess(max(seen["none"]), 1e-12)
 
     def test_many_values_make_five_groups_of_equal_size(self):
         values = list(np.random.default_rng(1).permutation(np.linspace(0.0, 10.0, 50)))

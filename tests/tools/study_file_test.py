@@ -209,8 +209,8 @@ class Errors(StudyCase):
                 self.read(HEAD + text)
         quoted = """vehicle.forces.\\"0\\".stiffness"""
         others = ("vehicle.forces.0.stiffness", quoted, "vehicle.forces.9.stiffness")
-        self.assertEqual(len(self.read(HEAD + name + "".join(SPEED.replace("speed", one) for one in others)).parameters),
-                         4)  # fmt: skip
+        study = self.read(HEAD + name + "".join(SPEED.replace("speed", one) for one in others))
+        self.assertEqual(len(study.parameters), 4)
 
     def test_a_random_road_may_have_what_it_needs_from_parameters_and_from_what_is_set(self):
         for text in ('set.random_road.spacing = 0.1\n', 'set = { "random_road.spacing" = 0.1 }\n'):

@@ -117,6 +117,18 @@ class Rows(StudyCase):
         (self.folder / "road.txt").write_text("0 0\n1 0.2\n2 0\n", encoding="utf-8")
         self.assertIn("1 runs: 1 made, 0 kept from before", self.study().stdout)
 
+    def test_numbers_that_are_put_in_groups_are_named_and_the_only_parameter_explains_all(self):
+        values = HEIGHT + "values = [0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07]\n"
+        self.write_study('measures = ["points/sprung.origin/rms"]\nset.duration = 0.5\n' + values)
+        process = self.study()
+        self.assertRegex(process.stdout, r"points/sprung.origin/rms +height +100 % +0 %")
+        self.assertNotIn("groups", process.stdout)
+        speed = '[[parameters]]\nkey = "speed"\nfrom = 1.0\nto = 5.0\n'
+        self.write_study('measures = ["points/sprung.origin/rms"]\nset.duration = 0.5\n[sampling]\n'
+                         f'method = "latin-hypercube"\nnumber = 7\n{values}{speed}')  # fmt: skip
+        said = "remark: many values are put into five groups or fewer, whose means count: height, speed"
+        self.assertIn(said, self.study().stdout)
+
     def test_of_points_that_are_the_same_one_run_is_made(self):
         self.write_study(f'{self.MEASURES}{HEIGHT}values = [0.01, 0.01, 0.02]\n')
         self.assertIn("3 runs: 2 made, 0 kept from before, 1 the same as others, 0 failed", self.study().stdout)

@@ -73,6 +73,9 @@ def format_effects(effects: list[Effect]) -> str:
     ]
     headings = ("measure", "parameter", "explains of the variance", "chance up to")
     text = [format_table(headings, sorted(rows))] if rows else []
+    ranges = list(dict.fromkeys(one.parameter for one in effects if one.is_of_ranges and one.share is not None))
+    if ranges:
+        text.append(f"remark: many values are put into five groups or fewer, whose means count: {', '.join(ranges)}")
     unknown = list(dict.fromkeys(one.parameter for one in effects if one.share is None))
     weak = sum(one.share is not None and not one.is_seen for one in effects)
     if len(seen) > MOST_SHOWN:

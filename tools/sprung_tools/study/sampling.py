@@ -7,6 +7,7 @@ number floor(u m), counted from 0.
 """
 
 import itertools
+import math
 import warnings
 from collections.abc import Sequence
 from typing import Any
@@ -41,6 +42,13 @@ def make_points(study: Study) -> list[Point]:
         tuple((*point, *more)[order[one.name]] for one in study.parameters)
         for point in points for more in itertools.product(*(one.values for one in crossed))
     ]  # fmt: skip
+
+
+def count_repeats(study: Study) -> int:
+    """How many runs in a row are of the same point of the parameters that are not crossed; 1 over a grid."""
+    if study.sampling.method == GRID:
+        return 1
+    return math.prod(len(one.values) for one in study.parameters if one.crossed)
 
 
 def make_shares(sampling: Sampling, dimensions: int) -> Floats:
