@@ -1,5 +1,6 @@
 """A study that is interrupted, killed or damaged keeps its rows and goes on where it was."""
 
+import json
 import os
 import select
 import signal
@@ -7,8 +8,8 @@ import subprocess
 import unittest
 from pathlib import Path
 
-from study_case import DYNAMICS, HEIGHT, StudyCase
-from tool_test_case import TOOLS
+from study_case import DYNAMICS, HEIGHT, REDUCE, StudyCase
+from tool_test_case import ROOT, TOOLS
 
 from sprung_tools.programs.in_process import load_module
 
@@ -104,6 +105,54 @@ class Interruption(StudyCase):
         process.kill()
         process.communicate()
         self.wait_for_end(held)
+
+
+class FullDisk(StudyCase):
+    """With a stand-in for a program that reports a full disk while a file called full is there."""
+
+    FAULT = "results.h5: error: dataset '/time' cannot be written: No space left on device"
+
+    def write_stand_in(self, program, case):
+        stand_in = self.folder / "stand_in"
+        stand_in.write_text(
+            f'#!/bin/bash\nif [[ "$*" == {case} && -e "{self.folder}/full" ]]; then\n'
+            f'  echo "{self.FAULT}" >&2\n  exit 2\nfi\nexec "{program}" "$@"\n',
+            encoding="utf-8",
+        )
+        stand_in.chmod(0o755)
+        (self.folder / "full").touch()
+        return str(stand_in)
+
+    def test_a_run_for_which_the_disk_has_no_space_ends_the_study_and_is_no_row(self):
+        environment = {"SPRUNG_DYNAMICS": self.write_stand_in(DYNAMICS, "*height=0.02*")}
+        settings = 'measures = ["program/steps"]\nset.duration = 0.5\n'
+        self.write_study(f"{settings}{HEIGHT}values = [0.01, 0.02]")
+        process = self.study("--jobs", "1", **environment)
+        self.assert_refuses(process, f"out/rows.jsonl: error: a run could not be made; then the same command goes on "
+                                     f"({self.FAULT})")  # fmt: skip
+        rows = self.folder / "out/rows.jsonl"
+        self.assertEqual(len(rows.read_text(encoding="utf-8").splitlines()), 1)
+        (self.folder / "full").unlink()
+        self.assertIn("2 runs: 1 made, 1 kept from before, 0 failed", self.study(**environment).stdout)
+        # A row of such a failure, as earlier versions kept it, does not count.
+        kept = [json.loads(line) for line in rows.read_text(encoding="utf-8").splitlines()]
+        lines = (json.dumps({**row, "exit_code": 2, "error": self.FAULT, "measures": {}}) + "\n" for row in kept)
+        rows.write_text("".join(lines), encoding="utf-8")
+        self.assertIn("2 runs: 2 made, 0 kept from before, 0 failed", self.study(**environment).stdout)
+
+    def test_a_design_for_which_the_disk_has_no_space_ends_the_study(self):
+        models = ROOT / "tests/verification/models"
+        environment = {"SPRUNG_REDUCE": self.write_stand_in(REDUCE, "build*")}
+        self.write_study(
+            f'command = "modes"\ndesigns = ["{models / "beam_inside.toml"}"]\n'
+            'measures = ["program/modes/2/undamped_frequency"]\n[[parameters]]\nname = "modulus"\n'
+            'key = "design.beam_inside.materials.steel.youngs_modulus"\nvalues = [1e11, 2e11]\n',
+            run=models / "pinned_beam_run.toml",
+        )
+        self.assert_refuses(self.study(**environment), self.FAULT)
+        self.assertEqual((self.folder / "out/rows.jsonl").read_text(encoding="utf-8"), "")
+        (self.folder / "full").unlink()
+        self.assert_succeeds(self.study(**environment))
 
 
 @unittest.skipUnless(load_module(Path(DYNAMICS)).call, "the module for Python is not built")

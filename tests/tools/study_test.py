@@ -205,7 +205,8 @@ class Rows(StudyCase):
     def test_a_failed_run_is_made_again_only_if_asked_for(self):
         self.write_study(self.MEASURES + TOLERANCE + "values = [1e-6, 5]")
         self.study()
-        self.assertIn("2 runs: 0 made, 2 kept", self.study().stdout)
+        said = "2 runs: 0 made, 2 kept from before, 1 failed; --retry-failed makes 1 of them again\n"
+        self.assertIn(said, self.study().stdout)
         self.assertIn("2 runs: 1 made, 1 kept", self.study("--retry-failed").stdout)
 
     def test_it_is_an_error_if_all_runs_fail(self):

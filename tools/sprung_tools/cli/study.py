@@ -116,12 +116,13 @@ def write_workflow(study: Study, folder: Path, programs: str | None, parts: int)
 def summarise(finished: Finished) -> str:
     """How many runs there are, and how they ended."""
     failed = sum(row.has_failed for row in finished.rows)
-    again = len(finished.rows) - finished.made - finished.kept
-    repeated = f", {again} the same as others" if again else ""
+    same = len(finished.rows) - finished.made - finished.kept
+    repeated = f", {same} the same as others" if same else ""
     doubtful = sum(row.exit_code == CHECK_FAILED for row in finished.rows)
     more = f", {doubtful} with a failed check" if doubtful else ""
     made = f"{finished.made} made, {finished.kept} kept from before{repeated}"
-    return f"{len(finished.rows)} runs: {made}, {failed} failed{more}"
+    again = f"; --retry-failed makes {finished.kept_failed} of them again" if finished.kept_failed else ""
+    return f"{len(finished.rows)} runs: {made}, {failed} failed{more}{again}"
 
 
 def main() -> int:

@@ -12,6 +12,7 @@ from sprung_tools.files.toml_file import TomlFile
 from sprung_tools.files.toml_text import format_document, split_key, strip_quotes
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.programs.calls import GOOD, call
+from sprung_tools.study.machine_faults import is_of_machine
 
 Table = dict[str, Any]
 
@@ -95,7 +96,7 @@ def find_entry(entries: Any, key: str, path: str, design: Path) -> Any:
 
 def reduce_variant(program: Path, variant: Variant) -> str:
     """Has sprung-reduce make the superelement of a variant, unless it is up to date. Returns the error, empty if all is
-    well."""
+    well. InputError for a failure that says nothing about the variant."""
     variant.folder.mkdir(parents=True, exist_ok=True)
     design = variant.folder / f"{variant.name}.toml"
     write_whole(design, variant.text)
@@ -104,6 +105,8 @@ def reduce_variant(program: Path, variant: Variant) -> str:
             (variant.folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, variant.folder / name)
     outcome = call([program, "build", design, "--output-dir", variant.folder, "--quiet"], is_tied=True)
+    if is_of_machine(outcome.error):
+        raise InputError(outcome.error)
     return outcome.error if outcome.exit_code != GOOD else ""
 
 

@@ -17,6 +17,7 @@ from sprung_tools.study.description import Study
 from sprung_tools.study.early_checks import check_designs, check_first, check_measures
 from sprung_tools.study.kept_rows import KeptRows, Row
 from sprung_tools.study.one_run import Setting, Task, make_and_keep
+from sprung_tools.study.machine_faults import is_of_machine
 from sprung_tools.study.plan import Planner, reduce_variants
 from sprung_tools.study.sampling import Point, make_points
 from sprung_tools.study.workflow import Part, collect_rows
@@ -28,7 +29,7 @@ SCRATCH = "under_way"  # folder of what the runs under way write
 
 class Finished(NamedTuple):
     """A study whose runs are made: its points, their tasks and rows; how many runs were made now, and how many rows
-    were there before. Of points that are the same one run is made."""
+    were there before, and how many of these have failed. Of points that are the same one run is made."""
 
     study: Study
     points: list[Point]
@@ -36,6 +37,7 @@ class Finished(NamedTuple):
     rows: list[Row]
     made: int
     kept: int
+    kept_failed: int = 0
 
 
 class Options(NamedTuple):
@@ -76,8 +78,8 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
             with Progress("runs", len(missing)) as progress:
                 make_runs(study, list(missing.values()), setting, pool, options.jobs, kept, progress)
         rows = [kept.rows[task.hash] for task in tasks]
-    kept_before = sum(task.hash not in missing for task in tasks)
-    return Finished(study, points, tasks, rows, len(missing), kept_before)
+    before = [row for row in rows if row.hash not in missing]
+    return Finished(study, points, tasks, rows, len(missing), len(before), sum(row.has_failed for row in before))
 
 
 def make_tasks(
@@ -120,6 +122,9 @@ def make_runs(
             for row in (one.result() for one in done):
                 if row.exit_code == INTERRUPTED:
                     raise KeyboardInterrupt
+                if is_of_machine(row.error):
+                    what = f"a run could not be made; then the same command goes on ({row.error})"
+                    raise InputError(f"{kept.path}: error: {what}")
                 kept.rows[row.hash] = row
                 check_measures(study, row)
                 is_tried = True

@@ -14,6 +14,7 @@ from typing import IO, NamedTuple
 from sprung_tools.files.errors import InputError
 from sprung_tools.programs.calls import CHECK_FAILED, GOOD
 from sprung_tools.runs.measures import Measure, Measures
+from sprung_tools.study.machine_faults import is_of_machine
 
 ROWS = "rows.jsonl"
 MADE = ("table.csv", "table.h5", "study.html")  # what the tool writes from them, over what is there
@@ -76,14 +77,17 @@ def keep_row(path: Path, row: Row) -> None:
         fcntl.lockf(file, fcntl.LOCK_EX)
         end = os.lseek(file, 0, os.SEEK_END)
         is_whole = end == 0 or os.pread(file, 1, end - 1) == b"\n"  # else a write was cut off there
-        os.write(file, ("" if is_whole else "\n").encode() + f"{line}\n".encode())
+        rest = ("" if is_whole else "\n").encode() + f"{line}\n".encode()
+        while rest:  # a disk that becomes full takes a part of it
+            rest = rest[os.write(file, rest) :]
         os.fsync(file)
     finally:
         os.close(file)
 
 
 def parse_row(line: str) -> Row | None:
-    """A row from its line; None for a line that was cut off or holds something else, whose run is then made again."""
+    """A row from its line; None for a line that was cut off, holds something else, or has a failure that says nothing
+    about the run. That run is then made again."""
     try:
         values = json.loads(line)
         values["warnings"] = tuple(values["warnings"])
@@ -91,7 +95,7 @@ def parse_row(line: str) -> Row | None:
         row = Row(**values)
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
-    return row if has_its_types(row) else None
+    return row if has_its_types(row) and not is_of_machine(row.error) else None
 
 
 def has_its_types(row: Row) -> bool:

@@ -45,6 +45,7 @@ from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.runs.stored_histories import list_coarse
 from sprung_tools.signals.spans import Span
 from sprung_tools.study.kept_rows import Row, keep_row
+from sprung_tools.study.machine_faults import is_of_machine
 from sprung_tools.study.measure_names import check_names, check_response_points
 from sprung_tools.study.storage import choose_storage
 
@@ -92,9 +93,10 @@ class Setting(NamedTuple):
 
 
 def make_and_keep(task: Task, setting: Setting) -> Row:
-    """Makes a run, and keeps its row unless the run was interrupted."""
+    """Makes a run, and keeps its row unless the run was interrupted or failed for a reason that says nothing about
+    it."""
     row = make_run(task, setting)
-    if row.exit_code != INTERRUPTED:
+    if row.exit_code != INTERRUPTED and not is_of_machine(row.error):
         keep_row(setting.rows, row)
     return row
 

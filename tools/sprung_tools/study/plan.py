@@ -16,6 +16,7 @@ from sprung_tools.programs.calls import format_overrides
 from sprung_tools.programs.finding import Programs
 from sprung_tools.study.description import DESIGN, RANDOM_ROAD, Study, flatten_settings
 from sprung_tools.study.designs import Variant, hash_parts, make_variant, reduce_variant
+from sprung_tools.study.machine_faults import is_of_machine
 from sprung_tools.study.one_run import Task
 from sprung_tools.study.random_roads import write_road
 from sprung_tools.study.sampling import Point
@@ -61,6 +62,8 @@ class Planner:
             if self.study.random_road:
                 road, road_hash = self._make_road(self.study.random_road | road_changes)
         except InputError as error:
+            if is_of_machine(str(error)):
+                raise
             problem, road_hash = str(error), all_changes  # a row of its own
         return Draft(changed, of_designs, variants, road, road_hash, problem)
 
