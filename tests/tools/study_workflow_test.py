@@ -10,7 +10,7 @@ import subprocess
 import unittest
 
 from study_case import DYNAMICS, EXAMPLES, HEIGHT, StudyCase
-from tool_test_case import TOOLS, run_program
+from tool_test_case import ROOT, TOOLS, run_program
 
 from sprung_tools.study.kept_rows import KeptRows, Row, keep_row
 from sprung_tools.study.workflow import collect_rows
@@ -146,6 +146,32 @@ class Parts(StudyCase):
         self.assertIn("1 runs: 1 made", self.study("--part", "2/2").stdout)
         self.assertFalse((self.folder / "out/table.csv").exists())
         self.assertIn("3 runs: 0 made, 3 kept from before", self.study("--collect").stdout)
+
+    def test_a_part_of_which_all_runs_fail_has_their_rows_unless_the_whole_study_fails(self):
+        measures = 'measures = ["program/steps"]\nset.duration = 0.2\n'
+        self.write_study(f'{measures}[[parameters]]\nkey = "speed"\nvalues = [2.0, 3.0]\n'
+                         '[[parameters]]\nkey = "integrator.relative_tolerance"\nvalues = [1e-6, 5]')  # fmt: skip
+        self.assertIn("2 runs: 2 made, 0 kept from before, 0 failed", self.study("--part", "1/2").stdout)
+        process = self.study("--part", "2/2")
+        self.assertIn("2 runs: 2 made, 0 kept from before, 2 failed", process.stdout)
+        self.assertEqual(process.returncode, 0)
+        self.assertIn("4 runs: 0 made, 4 kept from before, 2 failed", self.study("--collect").stdout)
+        self.write_study(f'{measures}[[parameters]]\nkey = "integrator.relative_tolerance"\nvalues = [5]\n'
+                         '[[parameters]]\nkey = "speed"\nvalues = [2.0, 4.0]')  # fmt: skip
+        for part in ("1/2", "2/2"):
+            self.assert_refuses(self.study("--part", part), "study.toml:5:8: error: ")
+
+    def test_a_part_of_which_no_design_can_be_reduced_has_the_rows_of_its_runs(self):
+        models = ROOT / "tests/verification/models"
+        self.write_study(
+            f'command = "modes"\ndesigns = ["{models / "beam_inside.toml"}"]\n'
+            'measures = ["program/modes/2/undamped_frequency"]\n[[parameters]]\nname = "modulus"\n'
+            'key = "design.beam_inside.materials.steel.youngs_modulus"\nvalues = [1e11, -1.0]\n',
+            run=models / "pinned_beam_run.toml",
+        )
+        for part, failed in (("1/2", 0), ("2/2", 1)):
+            process = self.study("--part", part)
+            self.assertIn(f"1 runs: 1 made, 0 kept from before, {failed} failed", process.stdout)
 
     def test_a_good_row_of_a_part_takes_the_place_of_a_failed_one(self):
         bad = Row("abc", 3, "no convergence", False, (), {}, 0.1)

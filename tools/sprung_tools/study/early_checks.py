@@ -1,7 +1,8 @@
 """Mistakes that every run of a study would have, told at their place in the study file before the runs are made.
 
 What fails for the first run may be a value that only this run has. So other runs are tried as well, from the first to
-the last: it is a mistake of all where they fail for the same reason, in the same words, or where a key is not known."""
+the last, and of a study in parts also those of other parts: it is a mistake of all where they fail for the same reason,
+in the same words, or where a key is not known."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -13,7 +14,7 @@ from sprung_tools.files.toml_text import cut_key, split_key, strip_quotes
 from sprung_tools.programs.calls import BAD_INPUT, Outcome, call, make_command
 from sprung_tools.programs.finding import Programs
 from sprung_tools.study.description import DESIGN, Study, fail_at_key, flatten_settings
-from sprung_tools.study.designs import reduce_variant
+from sprung_tools.study.designs import Variant, reduce_variant
 from sprung_tools.study.kept_rows import Row
 from sprung_tools.study.measure_names import SLIP
 from sprung_tools.study.one_run import Setting, Task
@@ -43,14 +44,22 @@ def find_common(problems: Iterable[str]) -> str:
     return common
 
 
-def check_designs(study: Study, drafts: Sequence[Draft], programs: Programs, pool: Executor) -> None:
-    """Reduces the designs of the first run. InputError where all runs need one that cannot be reduced."""
+def check_designs(
+    study: Study, drafts: Sequence[Draft], others: Sequence[Draft], programs: Programs, pool: Executor
+) -> None:  # fmt: skip
+    """Reduces the designs of the first run. InputError where all runs need one that cannot be reduced. others: of runs
+    that are not made here."""
     for name in study.designs:
-        variants = {one.folder: one for draft in drafts for one in draft.variants.values() if one.name == name}
-        tried = (pool.submit(reduce_variant, programs.reduce, one) for one in choose_some(list(variants.values())))
+        variants = [*choose_some(list_variants(drafts, name)), *list_variants(others, name)]
+        tried = (pool.submit(reduce_variant, programs.reduce, one) for one in variants)
         problem = find_common(one.result().partition(ERROR)[2] for one in tried)
         if problem:
             raise fail_at_design(study, name, problem)
+
+
+def list_variants(drafts: Iterable[Draft], name: str) -> list[Variant]:
+    """The distinct variants of a design."""
+    return list({one.folder: one for draft in drafts for one in draft.variants.values() if one.name == name}.values())
 
 
 def fail_at_design(study: Study, name: str, what: str) -> InputError:
@@ -63,13 +72,14 @@ def fail_at_design(study: Study, name: str, what: str) -> InputError:
     return study.file.fail(("designs",), f"{study.designs[name].name}: {what}", fragment=study.designs[name].name)
 
 
-def check_first(study: Study, setting: Setting, tasks: Sequence[Task]) -> None:
+def check_first(study: Study, setting: Setting, tasks: Sequence[Task], others: Sequence[Task]) -> None:
     """Tries the first run that can be made, without making it. InputError for a key or value of --set that is wrong in
-    all runs."""
+    all runs. others: runs that are not made here."""
     keys: dict[str, str] = {}  # by the problem
 
     def find_problems() -> Iterator[str]:
-        for number, task in enumerate(choose_some([task for task in tasks if not task.problem])):
+        tried = choose_some([task for task in tasks if not task.problem])
+        for number, task in enumerate([*tried, *(task for task in others if not task.problem)]):
             outcome = try_run(setting, task, f"try_{number}")
             before, _, what = outcome.error.partition(ERROR)
             is_of_set = outcome.exit_code == BAD_INPUT and before.startswith("--set ")

@@ -14,7 +14,7 @@ from sprung_tools.programs.calls import INTERRUPTED
 from sprung_tools.programs.finding import Programs
 from sprung_tools.programs.process_pool import open_pool
 from sprung_tools.study.description import Study
-from sprung_tools.study.early_checks import check_designs, check_first, check_measures
+from sprung_tools.study.early_checks import check_designs, check_first, check_measures, choose_some
 from sprung_tools.study.kept_rows import KeptRows, Row
 from sprung_tools.study.one_run import Setting, Task, make_and_keep
 from sprung_tools.study.machine_faults import is_of_machine
@@ -51,15 +51,17 @@ class Options(NamedTuple):
     part: Part | None = None
     collect: bool = False
 
+    def choose(self, points: list[Point]) -> list[Point]:
+        """The points whose runs are made."""
+        return points if self.part is None else self.part.choose(points)
+
 
 def run_study(study: Study, programs: Programs, options: Options) -> Finished:
     """Makes the runs of a study whose rows are not in its folder. InputError for a fault of the study itself; a run
     that fails is a row."""
-    points = make_points(study)
-    if options.part is not None:
-        points = options.part.choose(points)
+    points = options.choose(make_points(study))
     with KeptRows(options.folder) as kept, make_scratch(options.folder), open_pool(options.jobs) as pool:
-        tasks = make_tasks(study, programs, options, points, pool)
+        tasks, others = make_tasks(study, programs, options, points, pool)
         results = options.folder / "results" if options.keep_results else None
         setting = Setting(kept.path, programs.dynamics, study.command, study.run, tuple(study.measures),
                           options.folder / SCRATCH, results, study.has_one_vehicle)  # fmt: skip
@@ -74,7 +76,7 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
             if task.hash not in there or task.hash in again or not has_results(there[task.hash], setting)
         }  # fmt: skip
         if missing:
-            check_first(study, setting, tasks)
+            check_first(study, setting, tasks, others)
             with Progress("runs", len(missing)) as progress:
                 make_runs(study, list(missing.values()), setting, pool, options.jobs, kept, progress)
         rows = [kept.rows[task.hash] for task in tasks]
@@ -84,15 +86,18 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
 
 def make_tasks(
     study: Study, programs: Programs, options: Options, points: list[Point], pool: ProcessPoolExecutor
-) -> list[Task]:
-    """The tasks of all points, after stage one."""
+) -> tuple[list[Task], list[Task]]:
+    """The tasks of all points, after stage one; of a part also some of the whole study, whose designs are not reduced,
+    to try whether all runs fail."""
     planner = Planner(study, options.folder, programs)
     drafts = [planner.draft(point) for point in points]
-    check_designs(study, drafts, programs, pool)
+    others = [] if options.part is None else [planner.draft(point) for point in choose_some(make_points(study))]
+    check_designs(study, drafts, others, programs, pool)
     count = len({one.folder for draft in drafts for one in draft.variants.values()})
     with Progress("designs", count) as progress:
         failures = reduce_variants(programs, drafts, pool, progress.step)
-    return [planner.finish(draft, failures) for draft in drafts]
+    tasks, some = ([planner.finish(draft, failures) for draft in some] for some in (drafts, others))
+    return tasks, some
 
 
 def has_results(row: Row, setting: Setting) -> bool:
