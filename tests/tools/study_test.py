@@ -269,6 +269,21 @@ class Rows(StudyCase):
             is_warned = "bands/sprung.origin/80: the run has no such value" in row["warnings"]
             self.assertEqual(is_warned, row is coarse)
 
+    def test_a_measure_that_cannot_be_computed_is_an_empty_cell_with_a_warning_beside_the_others(self):
+        self.write_study('measures = ["program/steps", "histories/events/time/max", "summary/energy_closure"]\n'
+                         f"set.duration = 0.5\n{HEIGHT}values = [0.01, 0.02]")  # fmt: skip
+        process = self.study()
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("2 runs: 2 made, 0 kept from before, 0 failed", process.stdout)
+        why = "histories/events/time: cannot be computed (dataset 'events/time' has shape (0,), expected 501 rows"
+        first, last = find_complaints(process.stderr)
+        self.assertIn(f"warning: the first run has no measure histories/events/time/max ({why}", first)
+        self.assertEqual(last, "warning: no run has the measure histories/events/time/max")
+        for row in self.read_table():
+            self.assertGreater(float(row["program/steps"]), 0.0)
+            self.assertGreater(float(row["summary/energy_closure [1]"]), 0.0)
+            self.assertIn(why, row["warnings"])
+
     def test_where_the_vehicle_varies_a_measure_that_one_does_not_have_is_an_empty_cell(self):
         text = (EXAMPLES / "quarter_car.toml").read_text(encoding="utf-8")
         for name in ("tyre", "wheel"):

@@ -17,12 +17,11 @@ from sprung_tools.study.description import DESIGN, Study, fail_at_key, flatten_s
 from sprung_tools.study.designs import Variant, reduce_variant
 from sprung_tools.study.kept_rows import Row
 from sprung_tools.study.measure_names import SLIP
-from sprung_tools.study.one_run import Setting, Task
+from sprung_tools.study.one_run import ERROR, Setting, Task
 from sprung_tools.study.plan import Draft
 
 MOST_TRIED = 8
 UNKNOWN = "unknown key"
-ERROR = ": error: "
 Item = TypeVar("Item")
 
 

@@ -137,12 +137,18 @@ def make_runs(
                 if not (row.has_failed or has_good):
                     has_good = True
                     for name in find_missing(setting.measures, row.measures):
-                        what = f"the first run has no measure {name}; the others are made all the same"
+                        why = "".join(f" ({one})" for one in row.warnings if is_about(one, name))
+                        what = f"the first run has no measure {name}{why}; the others are made all the same"
                         progress.report(f"warning: {what}")
                 progress.step(note=f", {failures} failed" if failures else "")
     except BrokenProcessPool as error:
         what = "a process of the study was ended from outside; started again, the study goes on"
         raise InputError(f"{kept.path}: error: {what}") from error
+
+
+def is_about(problem: str, measure: str) -> bool:
+    """Whether a warning of a run says why the object of a measure cannot be computed."""
+    return fnmatchcase(problem.partition(": ")[0], measure.rpartition("/")[0])
 
 
 def find_missing(wanted: Iterable[str], there: Collection[str]) -> list[str]:

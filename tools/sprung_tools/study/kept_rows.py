@@ -21,7 +21,7 @@ MADE = ("table.csv", "table.h5", "study.html")  # what the tool writes from them
 
 
 class Row(NamedTuple):
-    """The outcome of a run. exit_code: the program's, or 2 where a measure cannot be computed; converged: that no
+    """The outcome of a run. exit_code: the program's, or 2 where its results cannot be read; converged: that no
     check of the run failed."""
 
     hash: str

@@ -50,6 +50,7 @@ from sprung_tools.study.measure_names import check_names, check_response_points
 from sprung_tools.study.storage import choose_storage
 
 OF_RESULTANTS = ("stresses", "histories")  # measures that need the forces and moments of sections at every output
+ERROR = ": error: "  # in the text of an error, behind the place
 PROGRAM = "program/"  # what the names of values in the program's own JSON begin with
 
 
@@ -131,9 +132,10 @@ def make_run(task: Task, setting: Setting) -> Row:
 
 
 def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured:
-    """Takes the measures of a run. InputError if one of them cannot be computed."""
+    """Takes the measures of a run. One that cannot be computed is a warning."""
     wanted = [name for name in setting.measures if not name.startswith(PROGRAM)]
-    converged, measures = outcome.exit_code == GOOD, Measures()
+    converged = outcome.exit_code == GOOD
+    measures: Measures = {}
     warnings: tuple[str, ...] = ()
     if output is not None and setting.command == "run":
         with open_results(output) as results:
@@ -149,7 +151,8 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
             objects = list_wanted_objects(wanted, partial(list_objects, results, window))
             objects |= list_history_objects(results, window, wanted)
             warnings += tuple(list_remarks_of(results, wanted, window))
-            measures = pick(objects, wanted)
+            measures, problems = pick(objects, wanted)
+            warnings += tuple(problems)
             unknown = [name for name in wanted if name in measures and measures[name].value is None]
             warnings += tuple(f"{name}: {UNKNOWN}" for name in unknown)
     elif output is not None:
@@ -157,7 +160,8 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
             response = Response("", file, read_numbers(file, "frequency")[0])
             if setting.has_one_vehicle:
                 check_response_points(response, list_points(wanted))
-            measures = pick(list_wanted_objects(wanted, partial(list_linear_objects, response)), wanted)
+            measures, problems = pick(list_wanted_objects(wanted, partial(list_linear_objects, response)), wanted)
+            warnings += tuple(problems)
             if any(name.startswith("points/") for name in wanted):
                 warnings += tuple(list_frequency_remarks(response, list_points(wanted) or list_judged(response)))
     said = dict(flatten("program", read_json(outcome)))
@@ -201,14 +205,22 @@ def list_remarks_of(results: ResultsFile, wanted: Sequence[str], window: Span) -
     return remarks + (list_band_remarks(results, points, window) if is_wanted("bands") else [])
 
 
-def pick(objects: Objects, wanted: Sequence[str]) -> Measures:
-    """The measures whose names are wanted, from the objects that have some of them. Others are not computed."""
+def pick(objects: Objects, wanted: Sequence[str]) -> tuple[Measures, list[str]]:
+    """The measures whose names are wanted, from the objects that have some of them, and why objects have none because
+    they cannot be computed. Others are not computed."""
     found: Measures = {}
+    problems = []
     for name, calc in objects.items():
         if any(fnmatchcase(name, one.rpartition("/")[0]) or one.startswith(f"{name}/") for one in wanted):
-            measures = calc()
+            try:
+                measures = calc()
+            except InputError as error:
+                if is_of_machine(str(error)):
+                    raise
+                problems.append(f"{name}: cannot be computed ({str(error).partition(ERROR)[2] or error})")
+                continue
             found |= {key: one for key, one in measures.items() if any(fnmatchcase(key, pattern) for pattern in wanted)}
-    return found
+    return found, problems
 
 
 def read_json(outcome: Outcome) -> Any:
