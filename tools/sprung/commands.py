@@ -8,6 +8,7 @@ from typing import Any
 
 from sprung.results import Folder, Mode, Response, Results
 from sprung_tools.files.errors import InputError
+from sprung_tools.files.toml_text import flatten_settings, split_key
 from sprung_tools.programs.calls import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -30,11 +31,12 @@ class NumericalError(Exception):
     """A computation that did not come to its end, or a program that was ended from outside."""
 
 
-def build(designs: Iterable[PathLike], output_dir: PathLike, *, force: bool = False) -> list[Path]:
-    """Reduces designs to superelements; those that are up to date are left alone unless they are forced.
+def build(designs: PathLike | Iterable[PathLike], output_dir: PathLike, *, force: bool = False) -> list[Path]:
+    """Reduces designs to superelements; those that are up to date are left alone unless they are forced. designs: one,
+    or several.
 
     Returns their files. InputError for a design that cannot be used."""
-    files = [Path(design) for design in designs]
+    files = [Path(design) for design in ([designs] if isinstance(designs, (str, Path)) else designs)]
     command: list[PathLike] = [find_program(REDUCE), "build", *map(as_path, files), "--quiet"]
     command += ["--output-dir", as_path(output_dir)]
     check(call(command + ["--force"] * force), GOOD)
@@ -51,6 +53,8 @@ def run(
     """Makes a run.
 
     overrides: keys of the run file, and of the vehicle file after `vehicle.`, with their values, as `--set` takes them.
+    A table stands for its keys: {"road": {"height": 0.1}} changes the height alone. As a whole count a road with its
+    shape, an empty table, and the value of a key of a body, a joint, a motion or a force, such as a spring's law.
     output: results file; without it the file goes away with the Results. A run of which a check failed has results,
     too: see Results.converged.
     """
@@ -110,11 +114,27 @@ def start(
 ) -> dict[str, Any]:
     """Has sprung-dynamics do something. Returns the JSON that it prints."""
     where = None if superelements is None else Path(superelements)
-    settings = format_overrides(overrides or {})
+    settings = format_overrides(list_settings(overrides))
     outcome = call_here(make_command(find_program(DYNAMICS), verb, Path(file), where, settings, output))
     check(outcome, GOOD, CHECK_FAILED)
     found: dict[str, Any] = json.loads(outcome.printed)
     return found
+
+
+def list_settings(overrides: object) -> dict[str, Any]:
+    """The keys and values of overrides, with a key for each value in a table. TypeError for what is no mapping."""
+    if overrides is None:
+        return {}
+    if not isinstance(overrides, Mapping):
+        raise TypeError(f"overrides is {overrides!r}, expected a mapping such as {{'road.height': 0.1}}")
+    return flatten_settings(overrides, is_value=is_whole)
+
+
+def is_whole(key: str, table: Mapping[str, Any]) -> bool:
+    """Whether a table is the value of its key as a whole: a road with its shape, on which its other keys depend; in the
+    vehicle file `vehicle.forces.suspension.spring`, and whatever else belongs to a body or an element; an empty one."""
+    parts = split_key(key)
+    return not table or (key == "road" and "shape" in table) or (parts[:1] == ["vehicle"] and len(parts) > 3)
 
 
 def check(outcome: Outcome, *good: int) -> None:

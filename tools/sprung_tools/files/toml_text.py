@@ -2,6 +2,8 @@
 
 import json
 import re
+from collections.abc import Callable, Mapping
+from pathlib import PurePath
 from typing import Any
 
 import numpy as np
@@ -30,19 +32,42 @@ def cut_key(key: str, *names: str) -> str:
     return ".".join(parts[len(names) :]) if tuple(map(strip_quotes, parts[: len(names)])) == names else ""
 
 
+def never(_key: str, _table: Mapping[str, Any]) -> bool:
+    """Takes no table as a value."""
+    return False
+
+
+def flatten_settings(
+    table: Mapping[str, Any], prefix: str = "", is_value: Callable[[str, Mapping[str, Any]], bool] = never
+) -> dict[str, Any]:
+    """Tables in tables as keys with dots: {"road": {"height": 0.1}} → {"road.height": 0.1}.
+    is_value: whether the table of a key is a value as a whole."""
+    flat: dict[str, Any] = {}
+    for key, value in table.items():
+        path = f"{prefix}{key}"
+        if isinstance(value, Mapping) and not is_value(path, value):
+            flat |= flatten_settings(value, f"{path}.", is_value)
+        else:
+            flat[path] = value
+    return flat
+
+
 def format_value(value: Any) -> str:
-    """A value on one line; of numpy numbers and arrays, too. InputError for what TOML does not hold."""
+    """A value on one line; of numpy numbers and arrays, too; a path as its text. InputError for what TOML does not
+    hold."""
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)
+    if isinstance(value, PurePath):
+        value = str(value)
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(format_value, value))}]"
-    if isinstance(value, dict):
+    if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{format_key(key)} = {format_value(one)}" for key, one in value.items()) + " }"
     raise InputError(f"error: {type(value).__name__} '{value}' is no value of a parameter, expected a number, true or "
                      "false, a text, a list or a table")

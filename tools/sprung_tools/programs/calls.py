@@ -42,9 +42,18 @@ def end_with_parent() -> None:
     _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
+def list_words(command: Sequence[str | Path]) -> list[str]:
+    """The words of a command line. InputError for one with a NUL character, at which a program would cut it off."""
+    words = [os.fspath(word) for word in command]
+    for word in words:
+        if "\0" in word:
+            raise InputError(f"{word!r}: error: holds a NUL character, expected a path or a key without one")
+    return words
+
+
 def call(command: Sequence[str | Path], *, is_tied: bool = False) -> Outcome:
     """Runs a program to its end. is_tied: it ends with this process, which must have one thread only."""
-    words = [os.fspath(word) for word in command]
+    words = list_words(command)
     try:
         done = subprocess.run(
             words, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace",

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import h5py  # noqa: F401  # before the module, so that HDF5 closes h5py's files at exit
 
-from sprung_tools.programs.calls import Outcome, call
+from sprung_tools.programs.calls import Outcome, call, list_words
 
 MODULE = "sprung_dynamics"
 PROCESSES = "SPRUNG_PROCESSES"  # in the environment, not empty: each command is a process all the same
@@ -44,7 +44,7 @@ def load_module(program: Path) -> Module:
 
 def call_here(command: Sequence[str | Path]) -> Outcome:
     """Does what a command line of sprung-dynamics says: in this process if its module is there, else in another."""
-    program, *arguments = command
+    program, *arguments = list_words(command)
     module = load_module(Path(program))
     if module.call is None:
         return call(command)

@@ -1,6 +1,5 @@
 """A study as its file describes it."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -78,14 +77,3 @@ def fail_at_key(study: Study, key: str, what: str) -> InputError:
             return study.file.fail((*parameter.place, name), what, fragment=key)
     whole = ("set", key)  # a key with dots that stands in quotes
     return study.file.fail(whole if whole in study.file.places() else ("set", *key.split(".")), what)
-
-
-def flatten_settings(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Tables in tables as keys with dots: {"road": {"height": 0.1}} → {"road.height": 0.1}."""
-    flat: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, dict):
-            flat |= flatten_settings(value, f"{prefix}{key}.")
-        else:
-            flat[f"{prefix}{key}"] = value
-    return flat

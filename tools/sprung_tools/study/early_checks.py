@@ -10,10 +10,10 @@ from concurrent.futures import Executor
 from typing import TypeVar
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.toml_text import cut_key, split_key, strip_quotes
+from sprung_tools.files.toml_text import cut_key, flatten_settings, split_key, strip_quotes
 from sprung_tools.programs.calls import BAD_INPUT, Outcome, call, make_command
 from sprung_tools.programs.finding import Programs
-from sprung_tools.study.description import DESIGN, Study, fail_at_key, flatten_settings
+from sprung_tools.study.description import DESIGN, Study, fail_at_key
 from sprung_tools.study.designs import Variant, reduce_variant
 from sprung_tools.study.kept_rows import Row
 from sprung_tools.study.measure_names import SLIP

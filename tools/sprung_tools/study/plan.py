@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import TomlFile
-from sprung_tools.files.toml_text import cut_key, split_key, strip_quotes
+from sprung_tools.files.toml_text import cut_key, flatten_settings, split_key, strip_quotes
 from sprung_tools.programs.calls import format_overrides
 from sprung_tools.programs.finding import Programs
-from sprung_tools.study.description import DESIGN, RANDOM_ROAD, Study, flatten_settings
+from sprung_tools.study.description import DESIGN, RANDOM_ROAD, Study
 from sprung_tools.study.designs import Variant, hash_parts, make_variant, reduce_variant
 from sprung_tools.study.machine_faults import is_of_machine
 from sprung_tools.study.one_run import Task

@@ -1,6 +1,6 @@
 """Mistakes in the keys and names of a study, each told at its place in the file."""
 
-from sprung_tools.files.toml_text import cut_key, format_key, split_key, strip_quotes
+from sprung_tools.files.toml_text import cut_key, flatten_settings, format_key, split_key, strip_quotes
 from sprung_tools.study.description import (
     COLUMNS_BEFORE,
     COLUMNS_BEHIND,
@@ -10,7 +10,6 @@ from sprung_tools.study.description import (
     ROAD_KEYS,
     Study,
     fail_at_key,
-    flatten_settings,
 )
 from sprung_tools.study.same_keys import Parts, read_values, resolve_key
 
