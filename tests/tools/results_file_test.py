@@ -56,6 +56,22 @@ class Reading(ToolTestCase):
             with self.assertRaisesRegex(InputError, "no quantity 'bodies/chassis/speed.y'"):
                 results.series("bodies/chassis/speed.y")
 
+    def test_it_is_told_of_one_element_and_beside_what_is_always_stored(self):
+        path = write_results(self.folder / "less.h5")
+        with h5py.File(path, "a") as file:
+            for name in ("resolved/bodies/chassis", "resolved/forces/rear_tyre"):
+                file.require_group(f"model/{name}")
+            for name in ("area", "section_modulus", "station"):  # which are no histories
+                file[f"recovery/chassis/{name}"] = np.ones(2)
+            file["forces/rear_tyre/on_wheel"] = np.zeros((len(file["time"]), 3))
+        with open_results(path) as results:
+            for quantity, key in (("recovery/chassis/moment.1", "recovery"), ("forces/rear_tyre/force", "forces"),
+                                  ("forces/front_tyre/on_wheel.y", "wrenches")):  # fmt: skip
+                with self.assertRaisesRegex(InputError, f"is not stored; '{key}' in .output.store. of the run file"):
+                    results.series(quantity)
+            with self.assertRaisesRegex(InputError, "no quantity 'forces/rear_tyre/on_b.y'.*holds on_wheel"):
+                results.series("forces/rear_tyre/on_b.y")
+
     def test_modes_are_columns_by_number(self):
         self.assertEqual(self.results.num_modes("chassis"), 2)
         np.testing.assert_allclose(

@@ -18,7 +18,6 @@ from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 import sprung
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.project import ROOT as PROJECT
-from sprung_tools.programs.calls import format_overrides
 from sprung_tools.programs.finding import find_programs
 
 CAR = ROOT / "dynamics/models/examples/quarter_car_run.toml"
@@ -93,12 +92,56 @@ class Functions(ToolTestCase):
             for name in names:
                 self.assertIn(name, results)
                 self.assertEqual(results[name].shape, results.time.shape, name)
-            datasets = {name.rpartition(".")[0] if re.search(r"\.(x|y|angle|\d+)$", name) else name for name in names}
+            component = r"\.(x|y|angle|torque|\d+)$"
+            datasets = {name.rpartition(".")[0] if re.search(component, name) else name for name in names}
             histories = []
             with h5py.File(results.path) as file:
                 file.visititems(lambda name, one: histories.append(name) if isinstance(one, h5py.Dataset) else None)
                 expected = {one for one in histories if file[one].shape[:1] == results.time.shape} - {"time"}
             self.assertEqual(datasets, {one for one in expected if not one.startswith("model/")})
+
+    def test_arrays_are_the_callers_own(self):
+        """`t = results.time; t -= 1` moved the span of the statistics."""
+        with sprung.run(CAR, overrides={"duration": 0.5}) as results:
+            before = results.measures()
+            for name in ("time", *results.names()):
+                for array in (results[name], results.time):
+                    array += 1.0
+            self.assertEqual(results.measures(), before)
+            self.assertEqual(results.time[0], 0.0)
+        with sprung.response(CAR, overrides={"response": {"road": {"class": "C"}}}) as response:
+            before = response.measures()
+            for array in (response.frequency, response.magnitude("forces/tyre/force")):
+                array *= 2.0
+            self.assertEqual(response.measures(), before)
+
+    def test_only_what_can_be_read_is_in_the_results_and_a_loop_gives_its_names(self):
+        with sprung.run(CAR, overrides={"duration": 0.1}) as results:
+            names = list(results)
+            self.assertEqual(names, results.names())
+            self.assertIn("joints/body_slide/reaction.torque", names)
+            point = "points/sprung.origin"
+            for name in ("time", f"{point}/acceleration.y", f"{point}/displacement.y", f"{point}/acceleration.2"):
+                self.assertIn(name, results)
+                self.assertEqual(results[name].shape, results.time.shape)
+            for name in (point, f"{point}/acceleration", f"{point}/acceleration.q", "forces/tyre/force.x",
+                         "model/resolved/gravity.x"):  # fmt: skip
+                self.assertNotIn(name, results)
+                with self.assertRaises(InputError):
+                    results[name]
+            self.assertNotIn(5, results)
+            for read in (lambda: results[0], lambda: results.unit(0)):
+                with self.assertRaisesRegex(TypeError, "a quantity is its name, such as 'points/.*', got int 0"):
+                    read()
+
+    def test_one_point_and_one_design_need_no_list(self):
+        with sprung.run(CAR, overrides={"duration": 0.5}) as results:
+            self.assertEqual(results.measures("sprung.origin"), results.measures(["sprung.origin"]))
+            self.assertEqual(results.remarks("sprung.origin"), results.remarks(["sprung.origin"]))
+        with sprung.response(CAR, overrides={"response": {"road": {"class": "C"}}}) as response:
+            self.assertEqual(response.measures("sprung.origin"), response.measures(["sprung.origin"]))
+        design = VERIFICATION / "beam_inside.toml"
+        self.assertEqual(sprung.build(str(design), self.folder), [self.folder / "beam_inside.h5"])
 
     def test_a_file_without_a_name_goes_away_and_one_with_a_name_stays(self):
         with sprung.run(CAR, overrides={"duration": 0.1}) as results:
@@ -154,6 +197,17 @@ class Errors(ToolTestCase):
             with self.assertRaisesRegex(sprung.InputError, "no quantity 'points/none/velocity.x'"):
                 results["points/none/velocity.x"]
 
+    def test_a_nul_character_in_a_path_or_a_key_is_told(self):
+        """What is behind it was cut off: results got another name."""
+        calls = (
+            lambda: sprung.run("a\0b"), lambda: sprung.run(CAR, overrides={"a\0b": 1}),
+            lambda: sprung.run(CAR, output=self.folder / "a\0b"), lambda: sprung.build(["a\0b"], self.folder),
+        )  # fmt: skip
+        for start in calls:
+            with self.assertRaisesRegex(sprung.InputError, r"a\\x00b.*: error: holds a NUL character"):
+                start()
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_names_that_begin_with_a_dash_are_names(self):
         for name in ("--help", "-r.toml"):
             for call in (sprung.run, sprung.modes, lambda one: sprung.build([one], "bodies")):
@@ -174,18 +228,6 @@ class Errors(ToolTestCase):
         for read in reads:
             with self.assertRaisesRegex(sprung.InputError, r"\.h5: error: the file is closed; read "):
                 read()
-
-    def test_values_of_numpy_are_taken_and_others_are_refused_with_their_key(self):
-        values = {"speed": np.int64(3), "road.height": np.float32(0.25), "duration": np.float64(0.1),
-                  "adaptivity.indicator": np.bool_(False), "vehicle.gravity": np.array([0.0, -9.5])}  # fmt: skip
-        self.assertEqual(
-            format_overrides(values),
-            ["speed=3", "road.height=0.25", "duration=0.1", "adaptivity.indicator=false",
-             "vehicle.gravity=[0.0, -9.5]"],
-        )  # fmt: skip
-        for value in (3j, np.complex128(3j), None, [1.0, {1.0}]):
-            with self.assertRaisesRegex(sprung.InputError, "^road.height: error: .* is no value of a parameter, expec"):
-                sprung.run(CAR, overrides={"road.height": value})
 
     def test_a_measure_that_a_run_does_not_have_is_an_error_that_names_the_objects(self):
         with sprung.run(CAR, overrides={"duration": 0.5}) as results:

@@ -3,14 +3,14 @@ dynamics/output/response.md), with units."""
 
 import importlib
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5, read_numbers
-from sprung_tools.files.results_file import COMPONENTS, ResultsFile, open_results
+from sprung_tools.files.results_file import COMPONENTS, ResultsFile, list_components, open_results
 from sprung_tools.runs import labelled_responses
 from sprung_tools.runs.measures import (
     UNKNOWN,
@@ -27,6 +27,7 @@ from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.runs.section_stress import list_stress_remarks, list_stressed_bodies
 
 Folder = tempfile.TemporaryDirectory[str]
+Names = str | Sequence[str]  # one, or several
 SERIES = ("bodies", "energy", "forces", "joints", "points", "recovery")  # the groups of histories
 DEEPEST = 4  # parts of a dataset's name, at most
 
@@ -42,7 +43,9 @@ class Mode(NamedTuple):
 
 
 class Results:
-    """The results of a run. `results[QUANTITY]` is a history [n], such as `points/chassis.seat/acceleration.y`.
+    """The results of a run. `results[QUANTITY]` is a history [n], such as `points/chassis.seat/acceleration.y`;
+    `QUANTITY in results` says whether there is one, and a loop over the results gives names(). Every array is the
+    caller's own: what is done to it changes neither the results nor their measures.
 
     path: the results file. Close it, or use it in a with block; a file without a name of its own is then removed.
     """
@@ -81,7 +84,7 @@ class Results:
     @property
     def time(self) -> Floats:
         """The time of each sample [n] s."""
-        return self._file.time
+        return self._file.time.copy()
 
     @property
     def converged(self) -> bool:
@@ -94,14 +97,17 @@ class Results:
         return list(dict.fromkeys(one.text for one in list_warnings(self._file)))
 
     def __getitem__(self, quantity: str) -> Floats:
-        return self._file.series(quantity)[0]
+        return self._read(quantity)[0]
 
-    def __contains__(self, quantity: str) -> bool:
-        return self._file.has(quantity)
+    def __contains__(self, quantity: object) -> bool:
+        return isinstance(quantity, str) and self._file.has_series(quantity)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names())
 
     def unit(self, quantity: str) -> str:
         """The unit of a quantity. InputError, as for its values, if there is no such quantity."""
-        return self._file.series(quantity)[1]
+        return self._read(quantity)[1]
 
     def array(self, quantity: str) -> Any:
         """A quantity as an xarray.DataArray over `time`, units as attributes. InputError where the package xarray is
@@ -110,7 +116,7 @@ class Results:
             xarray = importlib.import_module("xarray")
         except ImportError as error:
             raise InputError("xarray: error: is not installed; the Debian package is python3-xarray") from error
-        values, unit = self._file.series(quantity)
+        values, unit = self._read(quantity)
         time = ("time", self.time, {"units": "s"})
         return xarray.DataArray(values, {"time": time}, ["time"], name=quantity, attrs={"units": unit})
 
@@ -123,13 +129,13 @@ class Results:
         for point in self._file.names("points"):
             for what in ("position", "velocity", "acceleration", "deflection"):
                 path = f"points/{point}/{what}"
-                if path not in listed and path in self:
+                if path not in listed and self._file.has(path):
                     found += [f"{path}.{component}" for component in COMPONENTS[:2]]
         return found
 
     def measures(
         self,
-        points: Sequence[str] = (),
+        points: Names = (),
         *,
         start: float | None = None,
         end: float | None = None,
@@ -137,20 +143,19 @@ class Results:
     ) -> Measures:
         """All measures of the run by name (tools/README.md, "Measures"), each with `value` and `unit`.
 
-        points: BODY.POINT whose vibration is judged (default: seats and their bodies); start, end: span of time [s]
-        (default: that of the run's statistics); superelements: folder, for the moments of bodies taken as rigid.
+        points: BODY.POINT, or several, whose vibration is judged (default: seats and their bodies); start, end: span
+        of time [s] (default: that of the run's statistics); superelements: folder, for the moments of bodies taken as
+        rigid.
         """
         window = read_window(self._file, start, end)
         folder = None if superelements is None else str(superelements)
-        return calc_measures(list_objects(self._file, window, points, folder))
+        return calc_measures(list_objects(self._file, window, list_names(points), folder))
 
-    def remarks(
-        self, points: Sequence[str] = (), *, start: float | None = None, end: float | None = None
-    ) -> list[str]:
+    def remarks(self, points: Names = (), *, start: float | None = None, end: float | None = None) -> list[str]:
         """What makes measures over a span doubtful, as a span that is too short for the MTVV, beside `warnings`.
         points, start, end: as of measures()."""
         window = read_window(self._file, start, end)
-        judged = find_points(self._file, points)
+        judged = find_points(self._file, list_names(points))
         return [*list_remarks(self._file, judged, window), *list_band_remarks(self._file, judged, window),
                 *list_stress_remarks(self._file, list_stressed_bodies(self._file))]  # fmt: skip
 
@@ -171,6 +176,12 @@ class Results:
             raise InputError(f"{self.path}: error: {name}: {UNKNOWN}")
         return found.value
 
+    def _read(self, quantity: object) -> tuple[Floats, str]:
+        if not isinstance(quantity, str):
+            what = f"{type(quantity).__name__} {quantity!r}"
+            raise TypeError(f"a quantity is its name, such as 'points/chassis.seat/acceleration.y', got {what}")
+        return self._file.series(quantity)
+
     def _collect(self, path: str, found: list[str]) -> None:
         file = self._file.file
         shape = file.shape(path)
@@ -183,8 +194,7 @@ class Results:
         if len(shape) == 1:
             found.append(path)
         elif len(shape) == 2:
-            is_vector = path.startswith(("bodies/", "points/")) and "/modal/" not in path
-            columns = COMPONENTS[: shape[1]] if is_vector else [str(k + 1) for k in range(shape[1])]
+            columns = list_components(path, shape[1]) or [str(k + 1) for k in range(shape[1])]
             found += [f"{path}.{column}" for column in columns]
 
 
@@ -216,7 +226,7 @@ class Response:
     @property
     def frequency(self) -> Floats:
         """The frequencies [m] Hz."""
-        return self._response.frequency
+        return self._response.frequency.copy()
 
     def names(self) -> list[str]:
         """The outputs."""
@@ -234,6 +244,12 @@ class Response:
         """The r.m.s. of an output on the random road."""
         return self._response.rms(output)
 
-    def measures(self, points: Sequence[str] = ()) -> Measures:
-        """The measures of the points, and the r.m.s. of every output, by name, each with `value` and `unit`."""
-        return calc_measures(list_linear_objects(self._response, points))
+    def measures(self, points: Names = ()) -> Measures:
+        """The measures of the points, and the r.m.s. of every output, by name, each with `value` and `unit`. points:
+        as of Results.measures(); the default is all of the file."""
+        return calc_measures(list_linear_objects(self._response, list_names(points)))
+
+
+def list_names(names: Names) -> Sequence[str]:
+    """Names that may be one alone."""
+    return [names] if isinstance(names, str) else names

@@ -140,6 +140,23 @@ class ResultsFile:
         dataset = parse_quantity(quantity).dataset
         return self.file.has_dataset(dataset) or find_derived(self.file, dataset) is not None
 
+    def has_series(self, quantity: str) -> bool:
+        """Whether series() gives a quantity: its dataset is a history, and its component one of its columns."""
+        wanted = parse_quantity(quantity)
+        if not self.has(quantity):
+            return False
+        every = self.file.every(wanted.dataset)
+        shape = self.file.shape(wanted.dataset) or (self.time.size, 2)  # a point's motion that follows from its body
+        if len(shape) > 2 or shape[:1] != (self.file.count_rows(wanted.dataset, every, self.time.size),):
+            return False
+        try:
+            column = self._column(shape, wanted, quantity)
+            if wanted.from_static and column is not None:
+                self._static_value(wanted.dataset, column)
+        except InputError:
+            return False
+        return True
+
     def history(self, dataset: str) -> tuple[Floats, str]:
         """Reads a dataset, or computes it if it is the motion of a point that is not stored. Returns (values, unit)."""
         derived = None if self.file.has_dataset(dataset) else find_derived(self.file, dataset)
@@ -219,7 +236,7 @@ class ResultsFile:
                 f"{self.path}: error: dataset '{wanted.dataset}' has shape {values.shape}, "
                 f"expected {self.time.size} rows, one for each sample"
             )
-        column = self._column(values, wanted, quantity)
+        column = self._column(values.shape, wanted, quantity)
         if column is None:
             return values, unit
         values = values[:, column]
@@ -232,7 +249,8 @@ class ResultsFile:
         group, name, *_ = (*dataset.split("/"), "")
         owner = "bodies" if group == "recovery" else group
         is_motion = group == "bodies" and dataset.removeprefix(f"{group}/{name}/") in MOTION
-        is_left_out = is_motion or not self.file.names(f"{group}/{name}")
+        stored = {name_group(one) for one in self.file.list_histories(f"{group}/{name}")}
+        is_left_out = is_motion or name_group(dataset) not in stored
         if self.file.has_group(f"model/resolved/{owner}/{name}") and is_left_out:
             return self.file.fail(self.file.describe_missing(dataset))
         folder = quantity.strip("/") if self.file.has_group(quantity.strip("/")) else dataset
@@ -241,17 +259,17 @@ class ResultsFile:
         there = ", ".join(self.names(folder)) or "nothing"
         return InputError(f"{self.path}: error: no quantity '{quantity}': '/{folder}' holds {there}")
 
-    def _column(self, values: Floats, wanted: Quantity, quantity: str) -> int | None:
-        component = wanted.component
-        if values.ndim == 1 and component == "":
+    def _column(self, shape: tuple[int, ...], wanted: Quantity, quantity: str) -> int | None:
+        component, is_vector = wanted.component, len(shape) == 2
+        if not is_vector and component == "":
             return None
-        columns = 1 if values.ndim == 1 else values.shape[1]
+        columns = shape[1] if is_vector else 1
         known = list_components(wanted.dataset, columns)
-        if values.ndim == 2 and component in known:
+        if is_vector and component in known:
             return known.index(component)
-        if values.ndim == 2 and component.isdecimal() and 1 <= int(component) <= columns:
+        if is_vector and component.isdecimal() and 1 <= int(component) <= columns:
             return int(component) - 1
-        expected = "none" if values.ndim == 1 else ", ".join(known) or f"1 to {columns}"
+        expected = "none" if not is_vector else ", ".join(known) or f"1 to {columns}"
         raise InputError(f"{self.path}: error: '{quantity}' has component '{component}', expected {expected}")
 
     def _static_value(self, dataset: str, column: int) -> float:

@@ -86,6 +86,17 @@ class StoredFile:
             shape: tuple[int, ...] | None = found.shape
             return shape
 
+    def list_histories(self, group: str) -> list[str]:
+        """The datasets in a group and in the groups in it that have a row for each stored output."""
+        found = []
+        for name in (f"{group}/{one}" for one in self.names(group)):
+            rule = self._layout.find(name)
+            if not self.has_dataset(name):
+                found += self.list_histories(name)
+            elif rule and isinstance(rule.rule, Numbers) and rule.rule.shape[0] == "time":
+                found.append(name)
+        return found
+
     def attributes(self, name: str) -> dict[str, Any]:
         """The attributes of a group or a dataset: numbers, texts, and arrays of these. Those that the layout demands
         are there and have its types."""
