@@ -10,6 +10,7 @@ from ride_results import write_ride_results
 from synthetic_results import write_series
 from tool_test_case import TOOLS, ToolTestCase
 
+from sprung.results import Results
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.largest_loads import MOMENT, find_best_peak
@@ -159,6 +160,42 @@ class Json(ToolTestCase):
             self.assertIn(f"remark: truck: {gap}", process.stdout)
         process = self.run_tool("ride", "truck=a.h5", "--points", "body.center_of_mass")  # asked for, and not there
         self.assertEqual(process.returncode, 2)
+
+    def test_of_points_that_are_stored_at_some_outputs_only_what_the_rows_tell_is_given(self):
+        """No measure of the run was given, those of tyres and suspensions either."""
+        write_run(self.folder / "whole.h5")
+        every = 20
+        with h5py.File(write_run(self.folder / "a.h5"), "a") as file:
+            name = "points/body.seat/acceleration"
+            rows, attributes = file[name][::every], dict(file[name].attrs)
+            del file[name]
+            file[name] = rows
+            file[name].attrs.update({**attributes, "every": every})
+            time = file["time"][::every]
+        peaks = np.abs(rows[(time >= 1.0) & (time <= 3.0), 1])  # over the span of its statistics
+        whole, run = self.read_json("whole.h5", "a.h5")["runs"]
+        known = {"rms": np.sqrt(np.mean(peaks**2)), "peak": np.max(peaks)}
+        for name, measure in run["measures"].items():
+            place, _, last = name.rpartition("/")
+            expected = whole["measures"][name]["value"]
+            if place in ("points/body.seat", "bands/body.seat"):
+                expected = known.get(last) if place.startswith("points") else None
+            if expected is None:
+                self.assertIsNone(measure["value"], name)
+            else:
+                self.assertAlmostEqual(measure["value"], expected, places=9, msg=name)
+        reason = "'points/body.seat/acceleration' is stored every 20 ms only, but is needed at every output: make"
+        (remark,) = [one for one in run["remarks"] if one.startswith("body.seat")]
+        self.assertIn("without the weighted values, the absorbed power and the third-octave bands, and", remark)
+        self.assertIn(reason, remark)
+        process = self.run_tool("ride", "truck=a.h5")
+        self.assert_succeeds(process)
+        self.assertIn(f"remark: truck: {remark}", process.stdout)
+        with Results(self.folder / "a.h5") as results:
+            self.assertAlmostEqual(results.measure("points/body.seat/peak"), known["peak"], places=9)
+            for name in ("points/body.seat/wk_rms", "bands/body.seat/4"):
+                with self.assertRaisesRegex(InputError, f"{name}: the run has no such value .*; {reason}"):
+                    results.measure(name)
 
     def test_a_run_that_is_too_short_for_the_mtvv_has_a_remark(self):
         write_run(self.folder / "a.h5")

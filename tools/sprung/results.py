@@ -21,7 +21,7 @@ from sprung_tools.runs.measures import (
     list_linear_objects,
     list_objects,
 )
-from sprung_tools.runs.ride_assessment import list_band_remarks, list_remarks
+from sprung_tools.runs.ride_assessment import find_weighting_gap, list_band_remarks, list_remarks
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.runs.section_stress import list_stress_remarks, list_stressed_bodies
@@ -173,7 +173,9 @@ class Results:
             there = f"there are: {', '.join(measures)}" if measures else f"there are measures of: {', '.join(objects)}"
             raise InputError(f"{self.path}: error: no measure '{name}'; {there}")
         if found.value is None:
-            raise InputError(f"{self.path}: error: {name}: {UNKNOWN}")
+            judged = find_points(self._file, points) if points else []
+            gaps = filter(None, (find_weighting_gap(self._file, point) for point in judged))
+            raise InputError(f"{self.path}: error: {name}: {'; '.join((UNKNOWN, *gaps))}")
         return found.value
 
     def _read(self, quantity: object) -> tuple[Floats, str]:

@@ -179,18 +179,25 @@ class ResultsFile:
         """The number of outputs from one stored row of a quantity to the next. What stands between is interpolated."""
         return self.file.every(self._find_stored(quantity))
 
-    def check_every_output(self, quantity: str) -> None:
-        """Throws InputError if the dataset behind a quantity is not stored at every output: for spectra, filters and
-        counts interpolation is not enough."""
+    def describe_coarse(self, quantity: str) -> str:
+        """That the dataset behind a quantity is not stored at every output, and what to do; empty if it is. For
+        spectra, filters and counts interpolation is not enough."""
         dataset = self._find_stored(quantity)
         every = self.file.every(dataset)
-        if every > 1:
-            step = float(np.median(np.diff(self.time)))
-            raise InputError(
-                f"{self.path}: error: '{dataset}' is stored every {1e3 * every * step:g} ms only, but is needed at "
-                f"every output: make the run again with --set output.step.{name_group(dataset)}={step:.9g}, and first "
-                "with --dry-run, which says how large its results will be"
-            )
+        if every == 1:
+            return ""
+        step = float(np.median(np.diff(self.time)))
+        return (
+            f"'{dataset}' is stored every {1e3 * every * step:g} ms only, but is needed at every output: make the run "
+            f"again with --set output.step.{name_group(dataset)}={step:.9g}, and first with --dry-run, which says how "
+            "large its results will be"
+        )
+
+    def check_every_output(self, quantity: str) -> None:
+        """Throws InputError if the dataset behind a quantity is not stored at every output."""
+        coarse = self.describe_coarse(quantity)
+        if coarse:
+            raise InputError(f"{self.path}: error: {coarse}")
 
     def num_modes(self, body: str) -> int:
         """The number of modes that a body has in the run, 0 if it is rigid."""

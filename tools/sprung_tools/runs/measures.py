@@ -27,7 +27,7 @@ from sprung_tools.runs.largest_loads import (
     find_bending,
     find_best_peak,
 )
-from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands, point_name
+from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands, find_weighting_gap, point_name
 from sprung_tools.runs.ride_measures import (
     calc_comfort,
     calc_contact,
@@ -37,7 +37,6 @@ from sprung_tools.runs.ride_measures import (
     find_tyres,
     list_seats,
     read_window,
-    sampling_step,
 )
 from sprung_tools.runs.ride_of_response import (
     calc_linear_assessment,
@@ -50,7 +49,6 @@ from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, RunWarning, list_wa
 from sprung_tools.runs.section_stress import FROM_MODES, calc_section_stress, list_sources, list_stressed_bodies
 from sprung_tools.runs.stored_histories import list_gaps
 from sprung_tools.runs.vehicle_modes import WHERE
-from sprung_tools.signals.ride_weighting import describe_fault
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import NOMINAL
@@ -166,9 +164,9 @@ def measure_point(results: ResultsFile, name: str, folder: str, window: Span) ->
 def calc_point_values(results: ResultsFile, folder: str, window: Span) -> tuple[float | None, ...]:
     """The measures of a point in the order of POINT_UNITS; None for those that the file does not tell. folder: its
     group, `points/chassis.seat` for example."""
-    if describe_fault(sampling_step(results)):
-        inside = samples_between(results, *window)
-        plain = calc_plain(read_acceleration(results, folder, "y")[inside])
+    if find_weighting_gap(results, folder):
+        inside = samples_between(results, *window, results.every(f"{folder}/acceleration.y"))
+        plain = calc_plain(read_acceleration(results, folder, "y", may_be_coarse=True)[inside])
         return (*plain, *[None] * (len(POINT_UNITS) - len(plain)))
     one, more = calc_comfort(results, folder, window), calc_assessment(results, folder, window)
     return (one.rms, one.peak, one.weighted_rms, one.dose, more.mtvv, more.crest, more.fore_aft, more.pitch, more.total,
@@ -177,8 +175,9 @@ def calc_point_values(results: ResultsFile, folder: str, window: Span) -> tuple[
 
 def measure_bands(results: ResultsFile, name: str, folder: str, window: Span) -> Measures:
     """The r.m.s. of a point's vertical acceleration in third-octave bands, each under its nominal frequency in Hz;
-    None of bands of which the samples are too few."""
-    return combine(name, BAND_UNITS, calc_bands(results, folder, window))
+    None of bands of which the samples are too few, and of all where it is not stored at every output."""
+    is_coarse = results.describe_coarse(f"{folder}/acceleration.y") != ""
+    return combine(name, BAND_UNITS, [None] * len(NOMINAL) if is_coarse else calc_bands(results, folder, window))
 
 
 def measure_suspension(results: ResultsFile, name: str, window: Span) -> Measures:

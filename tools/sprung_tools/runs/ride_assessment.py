@@ -84,6 +84,12 @@ def point_name(point: str) -> str:
     return name if group == "points" else f"{name}.{CENTRE}"
 
 
+def find_weighting_gap(results: ResultsFile, point: str) -> str:
+    """Why a point has no weighted values and no absorbed power; empty if it has. point: as calc_vibration() takes
+    it."""
+    return results.describe_coarse(f"{point}/acceleration.y") or describe_fault(sampling_step(results))
+
+
 def find_pitch_gap(results: ResultsFile, point: str) -> str:
     """Why the file does not tell the rotation of the body at a point; empty if it does. point: as calc_vibration()
     takes it."""
@@ -100,22 +106,23 @@ def list_remarks(
     rotation of their bodies, and why; whether the span is too short for the MTVV, or begins while the weightings lack
     the vibration before the run; and what is said of values in static equilibrium and of tyres and suspensions.
     with_mtvv: whether that measure is asked for."""
-    gaps = {point: find_pitch_gap(results, point) for point in points}
-    fault = describe_fault(sampling_step(results)) if points else ""
+    fine, remarks = part_coarse(results, points)
+    fault = describe_fault(sampling_step(results)) if fine else ""
     if fault:
-        names = ", ".join(map(point_name, points))
-        return [f"{names}: without the weighted values and the absorbed power: {fault}",
-                *list_static_remarks(results), *list_row_remarks(results)]  # fmt: skip
-    remarks = [f"{point_name(point)}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
+        names = ", ".join(map(point_name, fine))
+        remarks.append(f"{names}: without the weighted values and the absorbed power: {fault}")
+        fine = []
+    gaps = {point: find_pitch_gap(results, point) for point in fine}
+    remarks += [f"{point_name(point)}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
     times = results.time[samples_between(results, *window)]
     length = float(times[-1] - times[0])
-    if points and with_mtvv and length < RUNNING * (1.0 - ROUNDING):
+    if fine and with_mtvv and length < RUNNING * (1.0 - ROUNDING):
         remarks.append(
             f"the MTVV is the largest r.m.s. over {RUNNING:g} s, and the span has only {length:.3g} s: what is missing "
             "counts as 0, so that the MTVV is too low"
         )
     settled = float(results.time[0]) + MEMORY
-    if points and results.is_continued and window[0] < settled * (1.0 - ROUNDING):
+    if fine and results.is_continued and window[0] < settled * (1.0 - ROUNDING):
         remarks.append(
             f"the run continues another one from {results.time[0]:.6g} s on, and its vibration before counts as 0: "
             f"the MTVV and the other weighted values hold from {settled:.4g} s on (--from), when {100.0 * LEFT:g} % is "
@@ -124,11 +131,25 @@ def list_remarks(
     return remarks + list_static_remarks(results) + list_row_remarks(results)
 
 
+def part_coarse(results: ResultsFile, points: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Parts points into those whose acceleration is stored at every output, and remarks on the others. points: as
+    calc_vibration() takes them."""
+    by_reason: dict[str, list[str]] = {}
+    for point in points:
+        by_reason.setdefault(results.describe_coarse(f"{point}/acceleration.y"), []).append(point)
+    fine = by_reason.pop("", [])
+    return fine, [
+        f"{', '.join(map(point_name, some))}: without the weighted values, the absorbed power and the third-octave "
+        f"bands, and with the r.m.s. and the peak of the stored rows: {reason}"
+        for reason, some in by_reason.items()
+    ]
+
+
 def list_band_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:
     """Of a run that continues another one, which bands have filters that lack the vibration before the run."""
     known = window[0] - float(results.time[0])  # s before the span
     lacking = [centre for centre in NOMINAL if MEMORY_PERIODS / centre > known + ROUNDING]
-    if not points or not results.is_continued or not lacking:
+    if not part_coarse(results, points)[0] or not results.is_continued or not lacking:
         return []
     return [
         f"the run continues another one from {results.time[0]:.6g} s on, and its vibration before counts as none: "

@@ -31,9 +31,11 @@ def calc_size(results: ResultsFile, point: str, what: str) -> float:
     return size
 
 
-def read_acceleration(results: ResultsFile, point: str, axis: str) -> Floats:
+def read_acceleration(results: ResultsFile, point: str, axis: str, *, may_be_coarse: bool = False) -> Floats:
     """A point's acceleration along an axis [n], m/s²; 0 where it is nothing but rounding. point: as calc_size() takes
-    it. InputError if it is not stored at every output."""
-    results.check_every_output(f"{point}/acceleration.{axis}")
+    it. InputError if it is not stored at every output, unless it may be coarse: then it is interpolated between its
+    rows."""
+    if not may_be_coarse:
+        results.check_every_output(f"{point}/acceleration.{axis}")
     values, _ = results.series(f"{point}/acceleration.{axis}")
     return clear_rounding(values, calc_size(results, point, "acceleration"))
