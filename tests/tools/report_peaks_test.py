@@ -3,6 +3,7 @@
 import math
 import unittest
 
+import h5py
 from synthetic_results import CIRCULAR, HEAVE, write_results
 from tool_test_case import ToolTestCase
 
@@ -61,6 +62,25 @@ class ReportPeaks(ToolTestCase):
         row = self.read_rows(process)[0]
         self.assertIn(f"{HEAVE * math.sin(CIRCULAR * 0.05):.5g}", row)
         self.assertNotIn("0.375", row)
+
+    def test_the_span_is_that_of_its_own_statistics_unless_another_is_given_and_is_told(self):
+        """It was the whole run, whatever its statistics, and was not told."""
+        write_results(self.folder / "a.h5")
+        write_results(self.folder / "b.h5", settings={"statistics_to": 0.05})
+        tool = ("report_peaks", "one=a.h5", "two=b.h5", "--show", DISPLACEMENT)
+        process = self.run_tool(*tool)
+        self.assertEqual(process.stdout.splitlines()[0], "statistics over: one 0 to 1 s, two 0 to 0.05 s")
+        one, two = self.read_rows(process)
+        self.assertEqual((one[4], two[3]), ("0.05", f"{HEAVE * math.sin(CIRCULAR * 0.05):.5g}"))
+        process = self.run_tool(*tool, "--from", "-1", "--to", "0.5")
+        self.assertEqual(process.stdout.splitlines()[0], "statistics over: one 0 to 0.5 s, two 0 to 0.5 s")
+
+    def test_of_a_file_that_does_not_tell_the_span_of_its_statistics_it_is_the_whole_run(self):
+        write_results(self.folder / "a.h5")
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            del file["model/resolved"]
+        process = self.run_tool("report_peaks", "one=a.h5", "--show", DISPLACEMENT, "--from", "0.5")
+        self.assertEqual(process.stdout.splitlines()[0], "statistics over: one 0.5 to 1 s", process.stderr)
 
     def test_a_quantity_that_no_run_has_is_refused(self):
         write_results(self.folder / "a.h5", num_modes=0)

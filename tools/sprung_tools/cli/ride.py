@@ -25,7 +25,7 @@ from typing import Any
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5
 from sprung_tools.runs.labelled_responses import Response, open_responses
-from sprung_tools.runs.labelled_runs import Run, open_runs, split_label
+from sprung_tools.runs.labelled_runs import Run, describe_spans, open_runs, split_label
 from sprung_tools.runs.largest_loads import MOMENT, calc_moment_difference, calc_peak, find_bending, list_moment_remarks
 from sprung_tools.runs.measures import (
     JSON_FORMAT,
@@ -230,8 +230,7 @@ def main() -> int:
             (CONTACT, make_contact_rows(runs, windows)),
             (BENDING, make_bending_rows(runs, windows, arguments.superelements)),
         ]
-    spans = ", ".join(f"{run.label} {start:g} to {end:g} s" for run, (start, end) in zip(runs, windows))
-    text = [f"statistics over: {spans}"] if runs else []
+    text = [f"statistics over: {describe_spans(runs, windows)}"] if runs else []
     for response in responses:
         low, high = response.frequency[0], response.frequency[-1]
         text.append(f"{response.label}: linear, on its random road, from {low:g} to {high:g} Hz")

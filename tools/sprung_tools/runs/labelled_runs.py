@@ -11,6 +11,7 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import ResultsFile, open_results
 from sprung_tools.files.whole_file import check_output
 from sprung_tools.model.reduced_vectors import count_vectors, read_vectors
+from sprung_tools.signals.spans import Span
 
 
 class Run(NamedTuple):
@@ -55,6 +56,11 @@ def distinguish(runs: list[Run], additions: Sequence[str]) -> list[Run]:
     if len({run.label for run in runs}) == len(runs):
         return runs
     return [Run(f"{run.label} ({addition})", run.results) for run, addition in zip(runs, additions)]
+
+
+def describe_spans(runs: Sequence[Run], spans: Iterable[Span]) -> str:
+    """The span of time of each run: `rigid 0 to 4 s, 2 modes 0.5 to 2 s`."""
+    return ", ".join(f"{run.label} {start:g} to {end:g} s" for run, (start, end) in zip(runs, spans, strict=True))
 
 
 def shown_quantities(arguments: Iterable[str]) -> list[Shown]:
