@@ -32,6 +32,15 @@ class CompareFrequencies(ToolTestCase):
         process = self.run_tool("compare_frequencies", "arm.h5", "--printed", "6.11", "38.3", "50.0")
         self.assert_refuses(process, f"arm.h5: error: has 2 modes, 3 to compare were given; {left_out}")
 
+    def test_an_option_that_takes_the_file_says_so(self):
+        for words, taken in ((("--printed", "6.11", "arm.h5"), True), (("--printed=6.11",), False), ((), False)):
+            process = self.run_tool("compare_frequencies", *words)
+            self.assertEqual(process.returncode, 2)
+            self.assertIn("arguments are required: SUPERELEMENT", process.stderr)
+            hint = "; --printed takes all values behind it: put the files first, or -- before them"
+            self.assertEqual(hint in process.stderr, taken, process.stderr)
+        self.assert_succeeds(self.run_tool("compare_frequencies", "--printed", "6.11", "--", "arm.h5"))
+
     def test_bad_input_is_refused(self):
         for arguments, expected in (
             (

@@ -53,7 +53,7 @@ class ExportCsv(ToolTestCase):
             np.testing.assert_array_equal(values[:, 2], results.series("bodies/chassis/position.y")[0])
 
     def test_a_span_of_time_has_both_its_ends(self):
-        told = self.export("run.h5", "-o", "a.csv", "--show", "time", "--from", "0.25", "--to", "0.75")
+        told = self.export("run.h5", "-o", "a.csv", "--show", "t=time", "--from", "0.25", "--to", "0.75")
         _, values = read_table(self.folder / "a.csv")
         self.assertEqual((values[0, 0], values[-1, 0], len(values)), (0.25, 0.75, 101))
         self.assertIn("a.csv: 101 rows, 2 columns", told)
@@ -80,6 +80,8 @@ class ExportCsv(ToolTestCase):
             ("no samples from 2 to 1 s", "run.h5", "a.csv", y, "--from", "2"),
             ("none.h5: error: no such file", "none.h5", "a.csv", y),
             ("none/a.csv: error: cannot write the file", "run.h5", "none/a.csv", y),
+            ("--show: error: the heading 'time [s]' stands twice", "run.h5", "a.csv", "time"),
+            ("--show: error: the heading 'a [m]' stands twice", "run.h5", "a.csv", f"a={y}", "--show", f"a={y[:-1]}x"),
             ("run.h5: error: is one of the input files", "run.h5", "run.h5", y),
             ("folder.csv: error: cannot write the file", "run.h5", "folder.csv", y),
         ):
@@ -89,7 +91,7 @@ class ExportCsv(ToolTestCase):
                 self.assertEqual(sorted(os.listdir(self.folder)), before)
 
     def test_an_earlier_table_stays_when_the_new_one_is_refused(self):
-        self.export("run.h5", "-o", "a.csv", "--show", "time")
+        self.export("run.h5", "-o", "a.csv", "--show", "t=time")
         before = (self.folder / "a.csv").read_bytes()
         self.assert_refuses(self.run_tool("export_csv", "run.h5", "-o", "a.csv", "--show", "nothing"), "no quantity")
         self.assertEqual((self.folder / "a.csv").read_bytes(), before)

@@ -273,7 +273,7 @@ class Command(QuarterCarCase):
         for arguments, message in (
             (("--speeds", "-3"), "--speeds: error: is -3, expected a finite value > 0"),
             (("--roughness", "0.2", "0.1"), "--roughness: error: got 0.2 0.1, expected two ascending values"),
-            (("--variant", "soft", "road"), "--variant: error: 'road' of 'soft' is not KEY=VALUE"),
+            (("--variant", "soft", "road"), "--variant soft: error: 'road' is not KEY=VALUE"),
             (("--variant", "a", "--variant", "a"), "--variant: error: the label 'a' stands twice"),
             (("--speeds", "--heights"), "there are neither speeds nor --heights"),
             (("--variant", "x", "sped=3"), "sped=3: error: unknown key 'sped'"),
@@ -281,6 +281,19 @@ class Command(QuarterCarCase):
         ):
             process = self.run_tool("ride_limits", "run.toml", "--point", "sprung.origin", *arguments)
             self.assert_refuses(process, message)
+
+    def test_changes_without_effect_are_refused(self):
+        """Each run has a road, a speed, times and an output of its own, and took no notice of them."""
+        for option in (("--set",), ("--variant", "x")):
+            for change, reason in (
+                ("road.height=0.2", "each run has a road of its own"), ("road={shape='flat'}", "each run has a road"),
+                ("speed=3", "each run has a speed of its own (--speeds"), ("duration=9", "each run lasts as long as"),
+                ("statistics.from=1", "the span that is judged"), ("output.step.points=0.1", "each run stores what"),
+                ('"continue_from"="a.h5"', "each run begins anew"),
+            ):  # fmt: skip
+                process = self.run_tool("ride_limits", "run.toml", "--point", "sprung.origin", *option, change)
+                name = " ".join(option)
+                self.assert_refuses(process, f"{name}: error: '{change}' would have no effect: {reason}")
 
 
 if __name__ == "__main__":

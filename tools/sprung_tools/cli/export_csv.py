@@ -8,6 +8,7 @@ import numpy as np
 
 from sprung_tools.cli.arguments import add_span_arguments
 from sprung_tools.files.array_types import Floats
+from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
 from sprung_tools.files.whole_file import check_output, write_whole
 from sprung_tools.runs.labelled_runs import Run, describe, samples_between, shown_quantities
@@ -47,7 +48,10 @@ def main() -> int:
         headings, columns = ["time [s]"], [results.time[inside]]
         for shown in shown_quantities(arguments.show):
             values, unit = results.series(shown.quantity)
-            headings.append(f"{shown.label} [{unit or '1'}]")
+            heading = f"{shown.label} [{unit or '1'}]"
+            if heading in headings:
+                raise InputError(f"--show: error: the heading '{heading}' stands twice: put a LABEL= before one")
+            headings.append(heading)
             columns.append(values[inside])
     write_table(arguments.output, headings, columns)
     print("\n".join([*doubts, f"{arguments.output}: {np.count_nonzero(inside)} rows, {len(columns)} columns"]))

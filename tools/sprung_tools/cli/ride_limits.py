@@ -28,7 +28,7 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import check_output
 from sprung_tools.limits.ride_limits import GRAVITY, Obstacles, Terrain, find_roughness, find_speed
 from sprung_tools.limits.root_finding import ABOVE, BELOW, Root
-from sprung_tools.limits.trials import Variant, Vehicle
+from sprung_tools.limits.trials import Variant, Vehicle, check_override
 from sprung_tools.plots.limits_picture import Curve, make_limits_figure, make_obstacle_panel, make_terrain_panel
 from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.programs.finding import DYNAMICS, find_program
@@ -220,12 +220,14 @@ def make_curves(
 
 
 def read_variants(given: Sequence[Sequence[str]], common: Sequence[str]) -> list[Variant]:
-    """The vehicles of the command line. InputError for a change without a value, and for a label given twice."""
+    """The vehicles of the command line. InputError for a change without a value or without effect, and for a label
+    given twice."""
+    for change in common:
+        check_override("--set", change)
+    for label, *changes in given:
+        for change in changes:
+            check_override(f"--variant {label}", change)
     variants = [Variant(label, (*common, *changes)) for label, *changes in given] or [Variant("vehicle", tuple(common))]
-    for variant in variants:
-        for change in variant.overrides:
-            if "=" not in change:
-                raise InputError(f"--variant: error: '{change}' of '{variant.label}' is not KEY=VALUE")
     labels = [one.label for one in variants]
     for label in labels:
         if labels.count(label) > 1:

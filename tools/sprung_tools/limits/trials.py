@@ -12,6 +12,7 @@ from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import ResultsFile, open_results
 from sprung_tools.files.toml_file import TomlFile
+from sprung_tools.files.toml_text import split_key, strip_quotes
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.limits.root_finding import CallFailed
 from sprung_tools.model.resolved_model import read_direction, read_elements, read_settings
@@ -34,6 +35,15 @@ STORED = {
     "output.size": 1000.0, "output.step": {},
     "output.store": {"points": "reported", "bodies": "all"} | dict.fromkeys(NOT_NEEDED, "none"),
 }  # fmt: skip
+# What a run gets here, so that a change of it would have no effect: the first parts of keys, and why.
+MADE_HERE: dict[tuple[str, ...], str] = {
+    ("continue_from",): "each run begins anew",
+    ("speed",): "each run has a speed of its own (--speeds, --speed-range)",
+    ("duration",): "each run lasts as long as its way over the road takes",
+    ("road",): "each run has a road of its own (--roughness, --heights, and the options of the terrain)",
+    ("statistics",): "the span that is judged follows from the road",
+    **{("output", key): "each run stores what its limit needs" for key in ("size", "step", "store")},
+}
 
 
 class Variant(NamedTuple):
@@ -41,6 +51,17 @@ class Variant(NamedTuple):
 
     label: str
     overrides: tuple[str, ...]
+
+
+def check_override(option: str, override: str) -> None:
+    """Throws InputError for what is no KEY=VALUE, and for a key without effect. option: of the command line."""
+    key, separator, _ = override.partition("=")
+    if not separator:
+        raise InputError(f"{option}: error: '{override}' is not KEY=VALUE")
+    parts = tuple(map(strip_quotes, split_key(key)))
+    reason = MADE_HERE.get(parts[:1]) or MADE_HERE.get(parts[:2])
+    if reason:
+        raise InputError(f"{option}: error: '{override}' would have no effect: {reason}")
 
 
 class Wheels(NamedTuple):

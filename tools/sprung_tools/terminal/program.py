@@ -11,9 +11,20 @@ from typing import NoReturn, TextIO
 from sprung_tools.files.errors import InputError
 
 
+class Parser(argparse.ArgumentParser):
+    """A parser that says which option has taken the files for values of its own."""
+
+    def error(self, message: str) -> NoReturn:
+        greedy = [one for action in self._actions if action.nargs in ("+", "*") for one in action.option_strings]
+        taken = [one for one in greedy if one in sys.argv[1:]]
+        if "required" in message and taken:
+            message += f"; {', '.join(taken)} takes all values behind it: put the files first, or -- before them"
+        super().error(message)
+
+
 def make_parser(description: str | None, example: str) -> argparse.ArgumentParser:
     """Makes a parser whose help ends in an example."""
-    return argparse.ArgumentParser(
+    return Parser(
         description=description,
         epilog=f"Example:\n  {example}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
