@@ -47,7 +47,8 @@ std::string format_sweep(const SweepOptions& options, const std::vector<SweepPoi
          "\n" +
          format_tracked(options, points, "Modes of the body clamped at its reference node",
                         &SweepPoint::clamped) +
-         "\nA mode that comes down from above those of the first line is in no column; more --modes show it.\n";
+         "\nA mode that comes down from above those of the first line is in no column; more --modes show "
+         "it.\n";
 }
 
 std::string format_sweep_json(const SweepOptions& options, const std::vector<SweepPoint>& points) {

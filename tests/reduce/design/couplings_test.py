@@ -221,7 +221,8 @@ point = "wall"
             (eccentric, (CLAMPED, FREE.replace("[reduction]", '[reduction]\nbasis = "fixed-interface"')),
              "'reduction.basis' holds the freedoms of 'weight', a point that follows others; name those in"),
             (averaged, ('["end0", "end1", "end2"]', '["end0"]'), "expected at least 2"),
-            (averaged, (f"load = {place(0.9, LENGTH + 0.2)}", f"load = {place(1.5)}"), "is a node of a line, which an average would hold"),
+            (averaged, (f"load = {place(0.9, LENGTH + 0.2)}", f"load = {place(1.5)}"),
+             "is a node of a line, which an average would hold"),
             (averaged, ('["end0", "end1", "end2"]', '["end0", "end0"]'), "names a node twice"),
             (averaged, ('["end0", "end1", "end2"]\n', '["end0", "end1"]\nweights = [1.0]\n'), "1 numbers for 2 points"),
         ):
