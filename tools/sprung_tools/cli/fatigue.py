@@ -26,7 +26,7 @@ from sprung_tools.files.whole_file import write_whole
 from sprung_tools.plots.fatigue_picture import DrawnFatigue, Place, make_fatigue_figure
 from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.runs.fatigue import Fatigue, calc_fatigue, calc_life, combine_fatigue
-from sprung_tools.runs.labelled_runs import Run, check_labelled_output, open_runs
+from sprung_tools.runs.labelled_runs import Run, check_labelled_output, describe_spans, open_runs
 from sprung_tools.runs.measures import JSON_FORMAT, JSON_VERSION, describe_run
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_doubts
@@ -339,7 +339,7 @@ def main() -> int:
     if arguments.json:
         print(make_json(runs, windows, all_found, duty, arguments, line))
         return 0
-    spans = ", ".join(f"{run.label} {start:g} to {end:g} s" for run, (start, end) in zip(runs, windows))
+    spans = describe_spans(runs, windows)
     doubts = [f"statistics over: {spans}; nominal stresses of the beam", *list_doubts(runs), *gaps,
               *list_source_remarks(runs, bodies), *list_line_remarks(arguments)]  # fmt: skip
     rows = sorted(make_rows([*all_found, *duty], asked), key=lambda row: bodies.index(row[0]))

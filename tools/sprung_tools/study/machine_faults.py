@@ -1,10 +1,11 @@
-"""Failures that say nothing about a run, because the machine lacks space, memory or files. No row is kept of them."""
+"""Failures that say nothing about a run, because the machine lacks space or files. No row is kept of them. A lack of
+memory may come from the run itself, and is the failure of a row."""
 
 import errno
 import os
 
-CODES = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.ENOMEM, errno.EMFILE, errno.ENFILE, errno.EIO)
-REASONS = (*map(os.strerror, CODES), "internal error: out of memory")  # the last one is of the programs themselves
+CODES = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EMFILE, errno.ENFILE, errno.EIO)
+REASONS = tuple(map(os.strerror, CODES))
 
 
 def is_of_machine(error: str) -> bool:
