@@ -25,9 +25,10 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.plots.fatigue_picture import DrawnFatigue, Place, make_fatigue_figure
 from sprung_tools.plots.picture_file import write_picture
-from sprung_tools.runs.fatigue import Fatigue, calc_fatigue, calc_life, combine_fatigue
+from sprung_tools.runs.fatigue import Fatigue, calc_fatigue, combine_fatigue
+from sprung_tools.runs.fatigue_measures import describe_place, pack_fatigue
 from sprung_tools.runs.labelled_runs import Run, check_labelled_output, describe_spans, open_runs
-from sprung_tools.runs.measures import JSON_FORMAT, JSON_VERSION, describe_run
+from sprung_tools.runs.measures import JSON_FORMAT, JSON_VERSION, Measures, describe_run, pack_measures
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.runs.section_stress import FROM_LOADS, find_gap, list_sources
@@ -43,8 +44,6 @@ SAME_PLACE = 1e-6  # m
 DUTY = "duty"  # the runs together, in tables
 HEADINGS = ("body", "run", "from", "x m", "y m", "element", "side", "highest MPa", "lowest MPa", "largest range MPa",
             "damage", "life h")  # fmt: skip
-UNITS = {"damage": "1", "x": "m", "y": "m", "element": "1", "highest": "Pa", "lowest": "Pa", "largest_range": "Pa",
-         "life": "s"}  # fmt: skip
 
 
 class AskedPlace(NamedTuple):
@@ -163,35 +162,16 @@ def list_places(found: Found, asked: Sequence[AskedPlace]) -> list[Place]:
     return [Place(station, side) for place in at_body for station in find_stations(found, place) for side in (0, 1)]
 
 
-def describe_place(found: Found, place: Place) -> dict[str, float | None]:
-    """What the fatigue of a body is at a place, in SI units, in the order of UNITS."""
-    section, stress = found.fatigue.section, found.fatigue.section.stress[:, place.station, place.side]
-    damage = float(found.fatigue.damage[place])
-    return {
-        "damage": damage, **dict(zip("xy", map(float, section.positions[place.station]))),
-        "element": int(section.elements[place.station]),
-        "highest": float(stress.max()), "lowest": float(stress.min()),
-        "largest_range": float(found.fatigue.greatest_range[place]), "life": calc_life(damage, found.duration),
-    }  # fmt: skip
-
-
 def make_rows(all_found: Sequence[Found], asked: Sequence[AskedPlace]) -> Iterator[tuple[str, ...]]:
     """The rows of the table."""
     for found in all_found:
         for place in list_places(found, asked):
-            one = describe_place(found, place)
+            one = describe_place(found.fatigue, found.duration, *place)
             side = found.fatigue.section.sides[place.station][place.side]
             stresses = (f"{(one[name] or 0.0) / MPA:.1f}" for name in ("highest", "lowest", "largest_range"))
             life = "–" if one["life"] is None else f"{one['life'] / HOUR:.4g}"
             yield (found.body, found.label, found.source, f"{one['x']:.3f}", f"{one['y']:.3f}", f"{one['element']}",
                    side, *stresses, f"{one['damage']:.3e}", life)  # fmt: skip
-
-
-def pack_fatigue(found: Found) -> dict[str, dict[str, Any]]:
-    """The measures of a body's worst place for JSON."""
-    name = f"fatigue/{found.body}/from_{found.source}"
-    worst = describe_place(found, Place(*found.fatigue.worst))
-    return {f"{name}/{key}": {"value": worst[key], "unit": unit} for key, unit in UNITS.items()}
 
 
 def pack_profile(found: Found) -> dict[str, Any]:
@@ -208,8 +188,10 @@ def pack_profile(found: Found) -> dict[str, Any]:
 
 def pack_all(found: Sequence[Found]) -> dict[str, Any]:
     """The measures of bodies, and their damage and stresses along them, for JSON."""
-    measures = {name: value for one in found for name, value in pack_fatigue(one).items()}
-    return {"measures": measures, "along": [pack_profile(one) for one in found]}
+    measures: Measures = {}
+    for one in found:
+        measures |= pack_fatigue(one.body, one.source, one.fatigue, one.duration)
+    return {"measures": pack_measures(measures), "along": [pack_profile(one) for one in found]}
 
 
 def make_json(runs: Sequence[Run], windows: Sequence[Span], all_found: Sequence[Found], duty: Sequence[Found],

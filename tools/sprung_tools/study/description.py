@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import Place, TomlFile
+from sprung_tools.signals.fatigue_damage import StrengthLine
 
 GRID, LIST, LATIN, SOBOL = "grid", "list", "latin-hypercube", "sobol"
 METHODS = (GRID, LIST, LATIN, SOBOL)
@@ -12,10 +13,12 @@ COMMANDS = ("run", "response", "modes", "equilibrium")
 LINEAR, LOGARITHMIC = "linear", "logarithmic"
 DESIGN, RANDOM_ROAD = "design", "random_road"  # first parts of the keys of designs and of the random road
 ROAD = "road"  # the table that a random road replaces
-ROOT_KEYS = ("run", "command", "superelements", "designs", "set", "measures", "sampling", "random_road", "parameters")
+ROOT_KEYS = ("run", "command", "superelements", "designs", "set", "measures", "sampling", "random_road", "fatigue",
+             "parameters")  # fmt: skip
 SAMPLING_KEYS = ("method", "number", "seed")
 PARAMETER_KEYS = ("name", "key", "keys", "values", "from", "to", "number", "spacing", "crossed")
 ROAD_KEYS = ("class", "rms", "density", "band", "exponent", "length", "spacing", "ease", "start", "seed")
+FATIGUE_KEYS = ("category", "slopes", "knee", "endurance", "strength", "factor")
 COLUMNS_BEFORE = ("run",)  # columns of the table beside parameters and measures
 COLUMNS_BEHIND = ("exit_code", "converged", "warnings", "error", "set", "hash")
 MOST_RUNS = 1_000_000
@@ -49,6 +52,13 @@ class Sampling(NamedTuple):
     seed: int
 
 
+class Strength(NamedTuple):
+    """How stresses become damage: the line, and what multiplies all stresses."""
+
+    line: StrengthLine
+    factor: float
+
+
 class Study(NamedTuple):
     """A study file. Paths are absolute."""
 
@@ -61,6 +71,7 @@ class Study(NamedTuple):
     measures: dict[str, str]  # name → label, which is the name itself where none is given
     sampling: Sampling
     random_road: dict[str, Any]
+    strength: Strength | None  # for the measures of fatigue
     parameters: tuple[Parameter, ...]
 
     @property

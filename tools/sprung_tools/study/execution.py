@@ -64,7 +64,7 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
         tasks, others = make_tasks(study, programs, options, points, pool)
         results = options.folder / "results" if options.keep_results else None
         setting = Setting(kept.path, programs.dynamics, study.command, study.run, tuple(study.measures),
-                          options.folder / SCRATCH, results, study.has_one_vehicle)  # fmt: skip
+                          options.folder / SCRATCH, results, study.has_one_vehicle, study.strength)  # fmt: skip
         if setting.results is not None:
             setting.results.mkdir(exist_ok=True)
         if options.collect:

@@ -7,9 +7,11 @@ from difflib import get_close_matches
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import read_elements
+from sprung_tools.runs.fatigue_measures import FATIGUE, FATIGUE_UNITS
 from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.measures import UNITS_OF, find_points
 from sprung_tools.runs.ride_of_response import list_points
+from sprung_tools.runs.section_stress import ENDINGS
 
 SLIP = "measures: error: "  # what the text of such an error begins with
 PARTNER = " partner"  # of the second of two coupled springs
@@ -19,17 +21,21 @@ def check_names(results: ResultsFile, wanted: Iterable[str]) -> None:
     """InputError for the first measure without a wildcard that no run of this vehicle has."""
     forces, bodies = list(read_elements(results, "forces")), results.names("model/bodies")
     there = {"suspensions": ("suspension", forces), "tyres": ("tyre", forces), "loads": ("body", bodies),
-             "stresses": ("body", bodies)}  # fmt: skip
+             "stresses": ("body", bodies), FATIGUE: ("body", bodies)}  # fmt: skip
+    units = {**UNITS_OF, FATIGUE: FATIGUE_UNITS}
     for name in (one for one in wanted if "*" not in one):
         group, *middle, measure = name.split("/")
         thing = "/".join(middle)
+        if group == FATIGUE:
+            thing, _, source = thing.rpartition("/")
+            check_name(source, [f"from_{one}" for one in ENDINGS], f"'{name}': stresses are")
         if group in ("points", "bands"):
             check_point(results, thing)
         elif group in there:
             kind, names = there[group]
             check_name(thing.removesuffix(PARTNER), names, f"the vehicle has no {kind}")
-        if group in UNITS_OF:
-            check_name(measure, list(UNITS_OF[group]), f"{group}/… has no measure")
+        if group in units:
+            check_name(measure, list(units[group]), f"{group}/… has no measure")
 
 
 def check_point(results: ResultsFile, point: str) -> None:

@@ -24,6 +24,7 @@ from sprung_tools.programs.calls import (
     name_override,
 )
 from sprung_tools.programs.kept_process import call_kept
+from sprung_tools.runs.fatigue_measures import list_fatigue_objects
 from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.measures import (
     UNKNOWN,
@@ -44,12 +45,13 @@ from sprung_tools.runs.ride_of_response import list_points as list_judged
 from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.runs.stored_histories import list_coarse
 from sprung_tools.signals.spans import Span
+from sprung_tools.study.description import Strength
 from sprung_tools.study.kept_rows import Row, keep_row
 from sprung_tools.study.machine_faults import is_of_machine
 from sprung_tools.study.measure_names import check_names, check_response_points
 from sprung_tools.study.storage import choose_storage
 
-OF_RESULTANTS = ("stresses", "histories")  # measures that need the forces and moments of sections at every output
+OF_RESULTANTS = ("stresses", "histories", "fatigue")  # measures that need the loads of sections at every output
 ERROR = ": error: "  # in the text of an error, behind the place
 PROGRAM = "program/"  # what the names of values in the program's own JSON begin with
 
@@ -75,7 +77,8 @@ class Measured(NamedTuple):
 
 class Setting(NamedTuple):
     """What all runs of a study share. rows: the file of rows; scratch: a folder for files that do not stay; results:
-    the folder of the results files, if they are kept; has_one_vehicle: whether all runs are of one vehicle file."""
+    the folder of the results files, if they are kept; has_one_vehicle: whether all runs are of one vehicle file;
+    strength: for measures of fatigue."""
 
     rows: Path
     program: Path
@@ -85,6 +88,7 @@ class Setting(NamedTuple):
     scratch: Path
     results: Path | None
     has_one_vehicle: bool
+    strength: Strength | None
 
     @property
     def needs_file(self) -> bool:
@@ -150,6 +154,8 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
             window = read_window(results)
             objects = list_wanted_objects(wanted, partial(list_objects, results, window))
             objects |= list_history_objects(results, window, wanted)
+            if setting.strength is not None:
+                objects |= list_fatigue_objects(results, window, *setting.strength)
             warnings += tuple(list_remarks_of(results, wanted, window))
             measures, problems = pick(objects, wanted)
             warnings += tuple(problems)

@@ -73,8 +73,9 @@ class Planner:
             (failures[one.folder] for one in draft.variants.values() if one.folder in failures), ""
         )
         overrides = format_overrides(draft.changed)
+        strength = [str(self.study.strength)] if self.study.strength else []
         parts = [str(ROW_VERSION), self._hash(self.programs.dynamics), self.study.command, *self.study.measures,
-                 "overrides", *overrides, draft.road_hash, problem]  # fmt: skip
+                 *strength, "overrides", *overrides, draft.road_hash, problem]  # fmt: skip
         superelements: tuple[Path, ...] = ()
         if not problem:
             vehicle = self.study.run.parent / str(draft.changed.get("vehicle", self._run.data.get("vehicle", "")))

@@ -5,7 +5,8 @@ from collections.abc import Iterable, Sequence
 # The first part of a measure's name, or of a quantity after `histories/` → the groups of [output.store] that it needs
 # besides the motion of bodies, which that of all points follows from, and the channels of forces.
 NEEDED = {
-    "loads": ("recovery",), "stresses": ("recovery",), "recovery": ("recovery",), "joints": ("joints",),
+    "loads": ("recovery",), "stresses": ("recovery",), "fatigue": ("recovery",), "recovery": ("recovery",),
+    "joints": ("joints",),
     "forces": ("wrenches",),
 }  # fmt: skip
 SPARED = ("recovery", "joints", "wrenches")

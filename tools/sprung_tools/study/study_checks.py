@@ -1,6 +1,7 @@
 """Mistakes in the keys and names of a study, each told at its place in the file."""
 
 from sprung_tools.files.toml_text import cut_key, flatten_settings, format_key, split_key, strip_quotes
+from sprung_tools.runs.fatigue_measures import FATIGUE
 from sprung_tools.study.description import (
     COLUMNS_BEFORE,
     COLUMNS_BEHIND,
@@ -19,6 +20,7 @@ NO_KEY = "is no key: names with dots between, in quotes where they hold a dot"
 def check_study(study: Study) -> None:
     """Throws InputError for the first mistake."""
     check_names(study)
+    check_fatigue(study)
     check_keys(study)
     check_overlaps(study)
     if study.random_road:
@@ -36,6 +38,19 @@ def check_names(study: Study) -> None:
         if label in taken:
             what = f"'{label}' is a parameter or another column of the table, expected another label"
             raise study.file.fail(("measures",), what, fragment=f"{label}={name}")
+
+
+def check_fatigue(study: Study) -> None:
+    """Throws InputError for measures of fatigue without a strength, or of anything but runs; and for a strength without
+    such measures."""
+    wanted = [name for name in study.measures if name.startswith(f"{FATIGUE}/")]
+    if wanted and study.command != "run":
+        raise study.file.fail(("measures",), f"'{wanted[0]}' is a measure of runs alone", fragment=wanted[0])
+    if wanted and study.strength is None:
+        what = f"'{wanted[0]}' needs the table [{FATIGUE}] with a 'category'"
+        raise study.file.fail(("measures",), what, fragment=wanted[0])
+    if study.strength is not None and not wanted:
+        raise study.file.fail((FATIGUE,), f"'{FATIGUE}' has no effect without a measure '{FATIGUE}/…'")
 
 
 def check_keys(study: Study) -> None:

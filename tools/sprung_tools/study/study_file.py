@@ -10,8 +10,10 @@ from typing import Any
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import Place, TomlFile
 from sprung_tools.runs.measures import HISTORIES, OF_HISTORIES
+from sprung_tools.signals.fatigue_damage import StrengthLine
 from sprung_tools.study.description import (
     COMMANDS,
+    FATIGUE_KEYS,
     GRID,
     LINEAR,
     LIST,
@@ -24,9 +26,12 @@ from sprung_tools.study.description import (
     SAMPLING_KEYS,
     Parameter,
     Sampling,
+    Strength,
     Study,
 )
 from sprung_tools.study.study_checks import check_study
+
+MPA = 1e6  # Pa
 
 
 class Reader:
@@ -67,6 +72,10 @@ class Reader:
     def real(self, key: str, default: float | None = None) -> float:
         """A finite number."""
         return float(self.take(key, is_number, "a number", default))
+
+    def positive(self, key: str, default: float | None = None) -> float:
+        """A finite number above 0."""
+        return float(self.take(key, lambda one: is_number(one) and one > 0, "a number above 0", default))
 
     def whole(self, key: str, least: int, default: int | None = None) -> int:
         """A whole number."""
@@ -128,7 +137,7 @@ def read_study(path: str | Path) -> Study:
     road = Reader(file, ("random_road",), file.data.get("random_road", {}), ROAD_KEYS).table
     overrides = root.take("set", lambda one: isinstance(one, dict), "a table of keys and values", {})
     study = Study(file, run, root.choice("command", COMMANDS, "run"), superelements, designs, overrides, measures,
-                  sampling, road, parameters)  # fmt: skip
+                  sampling, road, read_strength(file), parameters)  # fmt: skip
     check_study(study)
     return study
 
@@ -169,6 +178,24 @@ def find_problem_of_history(name: str) -> str:
     if "*" not in measure and measure not in OF_HISTORIES:
         return f"has the measure '{measure}' of a quantity, expected one of {', '.join(OF_HISTORIES)}"
     return ""
+
+
+def read_strength(file: TomlFile) -> Strength | None:
+    """Reads the table `fatigue`, if there is one."""
+    if "fatigue" not in file.data:
+        return None
+    reader = Reader(file, ("fatigue",), file.data["fatigue"], FATIGUE_KEYS)
+
+    def are_slopes(one: Any) -> bool:
+        return isinstance(one, list) and len(one) == 2 and all(is_number(part) and part > 0 for part in one)
+
+    def number(key: str, unit: float) -> float | None:
+        return unit * reader.positive(key) if key in reader.table else None
+
+    first, second = reader.take("slopes", are_slopes, "two numbers above 0", [3.0, 5.0])
+    line = StrengthLine(MPA * reader.positive("category"), (float(first), float(second)), reader.positive("knee", 5e6),
+                        number("endurance", 1.0), number("strength", MPA))  # fmt: skip
+    return Strength(line, reader.positive("factor", 1.0))
 
 
 def read_sampling(file: TomlFile) -> Sampling:
