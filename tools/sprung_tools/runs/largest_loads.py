@@ -50,7 +50,7 @@ def find_peak(results: ResultsFile, values: Floats, stations: Floats, window: Sp
 
 def find_signs(load: str, stations: Floats) -> Floats:
     """By what the values of a load at the stations are multiplied, so that all elements that are drawn over x count in
-    its direction: a moment of one that runs against it, by -1 (stations, eq. 1)."""
+    its direction: a moment of one that runs against it, by -1, as place_stations() tells."""
     return place_stations(stations).signs if load.startswith(MOMENT) else np.ones(len(stations))
 
 

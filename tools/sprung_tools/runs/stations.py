@@ -19,7 +19,7 @@ class Layout(NamedTuple):
     """How the loads along a body are drawn.
 
     order: of the stations, from the first one drawn to the last; along: places of these [m]; axis: what they are;
-    signs: 1 or -1 for each station in the order of the file, by which its bending moment is multiplied (1).
+    signs: 1 or -1 for each station in the order of the file, by which its bending moment is multiplied.
     """
 
     order: Integers
@@ -52,7 +52,7 @@ def place_stations(stations: Floats) -> Layout:
     is_drawn_over_x(), else along its elements, one after the other.
 
     A positive moment stretches the right of an element, seen from its first end. Over x all elements count as drawn in
-    the direction of x, so that a positive moment stretches the side of -y of each of them                           (1)
+    the direction of x, so that a positive moment stretches the side of -y of each of them.
     """
     ends = stations.reshape(-1, 2, 2)
     if is_drawn_over_x(stations):
