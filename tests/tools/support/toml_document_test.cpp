@@ -119,6 +119,7 @@ TEST_CASE("a text that is not TOML is refused at the fault") {
   CHECK_THAT(parse_error("a = 1\na = 2\n"), Contains("error: is not TOML: "));
   CHECK_THAT(parse_error("a = [1, 2\n"), Contains("error: is not TOML: "));
   CHECK_THAT(parse_error("[=]\n"), Contains("v.toml:1:2: error: is not TOML: "));  // found by toml_fuzz
+  CHECK_THAT(parse_error("a = 1\n\u00f6 = 2\n"), Contains("v.toml:2:1: error: is not TOML: "));  // likewise
   CHECK_THAT(parse_error("a = \"\xFF\"\n"), Catch::Matchers::StartsWith("v.toml:1:"));
   CHECK_THAT(parse_error("a = 99999999999999999999\n"),
              Catch::Matchers::StartsWith("v.toml:1:") &&
