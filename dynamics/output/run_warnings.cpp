@@ -192,7 +192,7 @@ void warn_of_coarse_moments(const RunStatistics& statistics, std::vector<RunWarn
   const std::vector<BodySections>& bodies = statistics.sections().sections().bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const MomentDensity& moments = statistics.moments()[b];
-    const double floor = moments.floor();
+    const double floor = std::max(moments.floor(), statistics.sections().peaks()[b].rounding_moment());
     if (floor == 0.0) continue;
     const SampleDensity* most_missed = nullptr;
     double worst_roughness = 0.0;

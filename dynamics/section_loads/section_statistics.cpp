@@ -25,6 +25,12 @@ double calc_share(const SectionPeak& part, const SectionPeak& whole) {
   return whole.value != 0.0 ? std::abs(part.value / whole.value) : 1.0;
 }
 
+// From the loads where there are some.
+const std::array<SectionPeak, 3>& get_whole(const SectionPeaks& peaks) {
+  const bool has_loads = peaks.from_loads[SectionPeaks::kMoment].value != 0.0;
+  return has_loads ? peaks.from_loads : peaks.from_modes;
+}
+
 void add_deflections(const BodySections& body, double time, SectionPeaks& peaks) {
   for (Eigen::Index p = 0; p < body.deflections().cols(); ++p) {
     const double size = body.deflections().col(p).head<2>().norm();
@@ -40,16 +46,19 @@ void add_deflections(const BodySections& body, double time, SectionPeaks& peaks)
 }  // namespace
 
 double SectionPeaks::missing_moment_share() const {
-  const bool has_loads = from_loads[kMoment].value != 0.0;
-  const std::array<SectionPeak, 3>& whole = has_loads ? from_loads : from_modes;
-  const double force = std::max({weight, std::abs(whole[kAxial].value), std::abs(whole[kShear].value)});
-  if (std::abs(missing_moment.value) <= kRoundingShare * length * force) return 0.0;
-  return calc_share(missing_moment, whole[kMoment]);
+  if (std::abs(missing_moment.value) <= rounding_moment()) return 0.0;
+  return calc_share(missing_moment, get_whole(*this)[kMoment]);
 }
 
 double SectionPeaks::missing_deflection_share() const {
   if (std::abs(missing_deflection.value) <= kRoundingShare * length) return 0.0;
   return calc_share(missing_deflection, deflection);
+}
+
+double SectionPeaks::rounding_moment() const {
+  const std::array<SectionPeak, 3>& whole = get_whole(*this);
+  const double force = std::max({weight, std::abs(whole[kAxial].value), std::abs(whole[kShear].value)});
+  return kRoundingShare * length * force;
 }
 
 SectionStatistics::SectionStatistics(const VehicleSections& sections)

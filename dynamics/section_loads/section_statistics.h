@@ -35,6 +35,8 @@ struct SectionPeaks {
   /// 0 where all are 0, or rounding errors beside the body's weight and its axial and shear forces.
   double missing_moment_share() const;
   double missing_deflection_share() const;
+  /// Moments up to this one are rounding errors beside weight, axial and shear forces of the body [N·m].
+  double rounding_moment() const;
 };
 
 /// The largest section loads of a run, over outputs that are added one by one.

@@ -141,7 +141,7 @@ TEST_CASE("keys of many parts are refused, and what only has many points is none
   };
   const std::string expected = "error: a key of more than 256 parts";
   CHECK(parse_error("x = 1\n  " + repeat("a.", 20000) + "b = 1\n") == "v.toml:2:3: " + expected);
-  CHECK(parse_error("[" + repeat("\"a.a\" . ", 300) + "b]\n") == "v.toml:1:2: " + expected);
+  CHECK(parse_error(std::string("[") + repeat("\"a.a\" . ", 300) + "b]\n") == "v.toml:1:2: " + expected);
   CHECK(parse_error("x = {" + repeat("'a'.", 256) + "b = 1}\n") == "v.toml:1:6: " + expected);
   const std::string deep = repeat("a.", 300) + "b = 1";
   for (const char* value :
