@@ -7,7 +7,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kLeastOfBody = 0.1;   // of the largest r.m.s. change along the body
+constexpr double kLeastOfBody = 0.1;   // of the largest r.m.s. change from output to output along the body
 constexpr double kLeastChange = 0.01;  // of the largest moment
 
 void calc_moments(const BodySections& body, Eigen::VectorXd& moments) {
@@ -22,7 +22,7 @@ MomentDensity::MomentDensity(const BodySections& body) {
   const bool has_moments = body.has_loads() || body.has_modes();
   const Eigen::Index num_elements = has_moments ? body.positions().rows() / 2 : Eigen::Index{0};
   elements_.resize(static_cast<std::size_t>(num_elements));
-  first_ = sum_of_squares_ = moments_ = Eigen::VectorXd::Zero(num_elements);
+  first_ = moments_ = Eigen::VectorXd::Zero(num_elements);
 }
 
 void MomentDensity::add_output(const BodySections& body) {
@@ -30,7 +30,6 @@ void MomentDensity::add_output(const BodySections& body) {
   if (num_outputs_++ == 0) first_ = moments_;
   largest_ = std::max(largest_, moments_.lpNorm<Eigen::Infinity>());
   moments_ -= first_;
-  sum_of_squares_ += moments_.cwiseAbs2();
   for (std::size_t i = 0; i < elements_.size(); ++i)
     elements_[i].add_sample(moments_[static_cast<Eigen::Index>(i)]);
 }
@@ -44,8 +43,8 @@ void MomentDensity::add_between(const BodySections& body) {
 }
 
 double MomentDensity::floor() const {
-  if (num_outputs_ == 0 || elements_.empty()) return 0.0;
-  const double most = std::sqrt(sum_of_squares_.maxCoeff() / static_cast<double>(num_outputs_));
+  double most = 0.0;
+  for (const SampleDensity& element : elements_) most = std::max(most, element.step_rms());
   return std::max(kLeastOfBody * most, kLeastChange * largest_);
 }
 

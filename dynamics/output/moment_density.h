@@ -19,24 +19,21 @@ class MomentDensity {
   void add_between(const BodySections& body);  ///< likewise between two outputs
 
   const std::vector<SampleDensity>& elements() const { return elements_; }  ///< changes [N·m]
-  /// Changes below this one are not judged [N·m]; 0 where there are none.
+  /// Changes from output to output below this one are not judged [N·m]; 0 where there are none.
   double floor() const;
 
   template <class Bytes, class Density>
   static void transfer(Bytes& bytes, Density& density) {
     for (auto& element : density.elements_) SampleDensity::transfer(bytes, element);
-    for (auto* values : {&density.first_, &density.sum_of_squares_}) {
-      for (Eigen::Index i = 0; i < values->size(); ++i) bytes.transfer((*values)[i]);
-    }
+    for (Eigen::Index i = 0; i < density.first_.size(); ++i) bytes.transfer(density.first_[i]);
     bytes.transfer(density.largest_);
     bytes.transfer(density.num_outputs_);
   }
 
  private:
   std::vector<SampleDensity> elements_;
-  Eigen::VectorXd first_;           // moments at the first output [N·m]
-  Eigen::VectorXd sum_of_squares_;  // of their changes
-  double largest_ = 0.0;            // size of a moment
+  Eigen::VectorXd first_;  // moments at the first output [N·m]
+  double largest_ = 0.0;   // size of a moment
   long num_outputs_ = 0;
   Eigen::VectorXd moments_;
 };

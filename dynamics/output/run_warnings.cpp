@@ -197,7 +197,7 @@ void warn_of_coarse_moments(const RunStatistics& statistics, std::vector<RunWarn
     const SampleDensity* most_missed = nullptr;
     double worst_roughness = 0.0;
     for (const SampleDensity& element : moments.elements()) {
-      worst_roughness = std::max(worst_roughness, element.roughness(floor));
+      worst_roughness = std::max(worst_roughness, element.roughness_by_steps(floor));
       if (element.missed(floor) <= kMissedPeak) continue;
       if (most_missed == nullptr ||
           std::abs(element.farthest_between()) > std::abs(most_missed->farthest_between()))
@@ -209,8 +209,8 @@ void warn_of_coarse_moments(const RunStatistics& statistics, std::vector<RunWarn
           "one changed by {:.3g} N·m in between, and by {:.3g} to {:.3g} N·m at them, since the start",
           most_missed->farthest_between(), most_missed->smallest(), most_missed->largest());
     } else if (worst_roughness > kTooRough) {
-      reason = fmt::format("one differs at each by {:.3g} % r.m.s. from the curve through its neighbours",
-                           100.0 * worst_roughness);
+      reason =
+          "one changes from value to value as a vibration does that has fewer than five of them in a period";
     } else {
       continue;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sprung::dynamics {
 
@@ -10,6 +11,7 @@ void SampleDensity::add_sample(double value) {
   last_.back() = value;
   ++num_samples_;
   sum_of_squares_ += value * value;
+  if (num_samples_ > 1) sum_of_steps_ += (value - last_[3]) * (value - last_[3]);
   const bool is_first = num_samples_ == 1;
   smallest_ = is_first ? value : std::min(smallest_, value);
   largest_ = is_first ? value : std::max(largest_, value);
@@ -27,6 +29,17 @@ double SampleDensity::roughness(double floor) const {
   const auto num_differences = static_cast<double>(num_samples_ - std::ssize(last_) + 1);
   if (num_differences < 1.0) return 0.0;
   return std::sqrt(sum_of_differences_ / std::max(sum_of_squares_, num_differences * floor * floor));
+}
+
+double SampleDensity::step_rms() const {
+  return num_samples_ > 1 ? std::sqrt(sum_of_steps_ / static_cast<double>(num_samples_ - 1)) : 0.0;
+}
+
+double SampleDensity::roughness_by_steps(double floor) const {
+  const auto num_differences = static_cast<double>(num_samples_ - std::ssize(last_) + 1);
+  if (num_differences < 1.0) return 0.0;
+  const double share = std::sqrt(sum_of_differences_ / num_differences) / std::max(step_rms(), floor);
+  return 2.0 / 3.0 * std::pow(3.0 / std::numbers::sqrt2 * share, 4.0 / 3.0);
 }
 
 double SampleDensity::farthest_between() const {

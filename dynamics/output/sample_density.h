@@ -17,6 +17,10 @@ class SampleDensity {
   /// Root mean square of the differences, over that of the samples but with at least `floor` > 0 for it; 0
   /// with fewer than five samples.
   double roughness(double floor) const;
+  /// Likewise by the steps from sample to sample in place of the samples, so that a change of level does not
+  /// hide a vibration; the same for a sine (output, eq. 3). @param floor  of the steps, > 0
+  double roughness_by_steps(double floor) const;
+  double step_rms() const;  ///< from sample to sample; 0 with fewer than two
   /// The value that lies farthest outside of the range of the samples, if one does.
   double farthest_between() const;
   double smallest() const { return smallest_; }  ///< of the samples
@@ -29,15 +33,17 @@ class SampleDensity {
   static void transfer(Bytes& bytes, Density& density) {
     for (auto& value : density.last_) bytes.transfer(value);
     bytes.transfer(density.num_samples_);
-    for (auto* value : {&density.sum_of_differences_, &density.sum_of_squares_, &density.smallest_,
-                        &density.largest_, &density.smallest_between_, &density.largest_between_})
+    for (auto* value :
+         {&density.sum_of_differences_, &density.sum_of_squares_, &density.sum_of_steps_, &density.smallest_,
+          &density.largest_, &density.smallest_between_, &density.largest_between_})
       bytes.transfer(*value);
   }
 
  private:
   std::array<double, 5> last_{};  // samples, the latest last
   long num_samples_ = 0;
-  double sum_of_differences_ = 0.0, sum_of_squares_ = 0.0;  // squared, of those with four neighbours
+  double sum_of_differences_ = 0.0;                   // squared, of those with four neighbours
+  double sum_of_squares_ = 0.0, sum_of_steps_ = 0.0;  // of all samples; of the steps, squared
   double smallest_ = 0.0, largest_ = 0.0;
   double smallest_between_ = std::numeric_limits<double>::infinity();
   double largest_between_ = -std::numeric_limits<double>::infinity();

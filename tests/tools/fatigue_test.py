@@ -245,6 +245,7 @@ class FatigueCommand(ToolTestCase):
         self.assertAlmostEqual(duty[name + "damage"]["value"] / damage, 1.0, places=12)
         self.assertAlmostEqual(duty[name + "life"]["value"] * damage / (23.5 * 2.0), 1.0, places=9)
         self.assertNotIn("fatigue/body/from_loads/damage", duty)  # the first run has none
+        self.assertIn("duty: without 'body' from its loads, which not all runs have", packed["remarks"])
         table = self.run_tool("fatigue", "a.h5", "b.h5", "--category", "71", "--duty", "20", "3.5")
         self.assertRegex(table.stdout, r"\n +duty +modes +2\.000 +0\.000 ")
         self.assertIn("remark: rigid (a.h5): no stresses of 'body' from its loads: it has", table.stdout)
@@ -257,11 +258,21 @@ class FatigueCommand(ToolTestCase):
         refused = self.run_tool("fatigue", "a.h5", "b.h5", "--category", "71", "--duty", "1", "1")
         self.assert_refuses(refused, "--duty: error: 'body': the runs do not have the same sections")
 
-    def test_strengths_in_pascal_are_remarked_on(self):
-        write_loads(self.folder / "a.h5")
-        done = self.run_tool("fatigue", "a.h5", "--category", "71e6", "--strength", "4e8")
-        self.assertIn("remark: --category is 7.1e+07 MPa: is it in Pa?", done.stdout)
-        self.assertIn("remark: --strength is 4e+08 MPa: is it in Pa?", done.stdout)
+    def test_a_duty_adds_the_damages_of_the_same_fibres_however_elements_are_drawn(self):
+        for name in ("a.h5", "b.h5"):
+            write_loads(self.folder / name)
+        with h5py.File(self.folder / "b.h5", "a") as file:  # the second element from right to left
+            group = file["recovery/body"]
+            group["station"][2:] = STATIONS[[3, 2]]
+            moment = group["moment"][()]
+            group["moment"][:, 2:] = -moment[:, [3, 2]]
+        done = self.run_tool("fatigue", "one=a.h5", "two=b.h5", "--category", "71", "--duty", "1", "2", "--json")
+        self.assert_succeeds(done)
+        packed = json.loads(done.stdout)
+        (alone,), (together,) = packed["runs"][0]["along"], packed["duty"]["along"]
+        self.assertEqual(together["sides"], alone["sides"])
+        self.assertNotEqual(packed["runs"][1]["along"][0]["sides"], alone["sides"])
+        np.testing.assert_allclose(together["damage"], 3.0 * np.array(alone["damage"]), rtol=1e-12)
 
     def test_places_of_a_frame_are_told_by_x_and_y(self):
         # Two rails above each other: an x alone does not say which one is meant.
@@ -272,6 +283,10 @@ class FatigueCommand(ToolTestCase):
         self.assert_refuses(refused, "--at: error: 'body' has sections above each other: give body:X,Y")
         done = self.run_tool("fatigue", "a.h5", "--category", "71", "--at", "body:4,0.28")
         self.assertRegex(done.stdout.splitlines()[-1], r"modes +4\.000 +0\.300 +2 ")
+        far = self.run_tool("fatigue", "a.h5", "--category", "71", "--at", "body:1,0.15")
+        self.assert_succeeds(far)  # within half an element of the nearest end
+        refused = self.run_tool("fatigue", "a.h5", "--category", "71", "--at", "body:2,0.15")
+        self.assert_refuses(refused, "--at: error: 'body' has no section at 2, 0.15 m; the nearest is at (0, 0) m")
 
     def test_what_cannot_be_is_refused(self):
         write_loads(self.folder / "a.h5")
@@ -296,6 +311,9 @@ class FatigueCommand(ToolTestCase):
             (("a.h5", "--category", "71", "--at", "body:0,1"), "which reaches in x from -2 to 2 m, y from 0 to 0 m"),
             (("a.h5", "--category", "71", "--at", "body:0,1,2"), "'body:0,1,2' is not BODY:X or BODY:X,Y in m"),
             (("a.h5", "--category", "71", "--duty", "1", "2"), "--duty: error: has 2 numbers, expected one for each"),
+            (("a.h5", "--category", "71e6"), "--category: error: is 7.1e+07, expected at most 10000 MPa"),
+            (("a.h5", "--category", "71", "--strength", "4e8"), "--strength: error: is 4e+08, expected at most 10000"),
+            (("duty=a.h5", "--category", "71", "--duty", "2"), "--duty: error: a run has the label 'duty', which the"),
             (("a.h5", "--category", "71", "--duty", "nan"), "--duty: error: is nan, expected a finite value > 0"),
             (("a.h5", "--category", "71", "--from", "1", "--to", "1"), "1 to 1 s has one output, expected at least 2"),
             (("a.h5", "--category", "71", "--bodies", "arm"), "no loads of the sections of 'arm'"),

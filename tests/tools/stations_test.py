@@ -26,11 +26,11 @@ class Stations(ToolTestCase):
         np.testing.assert_array_equal(layout.signs, np.ones(6))
         self.assertEqual(layout.axis, ALONG_ELEMENTS)
 
-    def test_a_gap_and_an_upright_spring_leave_a_chain(self):
-        chain = np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 0.0), (2.0, 0.2), (2.5, 0.2), (4.0, 0.2)])
+    def test_a_gap_leaves_a_chain_and_an_upright_post_does_not(self):
+        chain = np.array([(0.0, 0.0), (2.0, 0.0), (2.5, 0.2), (4.0, 0.2)])
         self.assertEqual(place_stations(chain).axis, ALONG_X)
-        inside = np.array([(0.0, 0.0), (2.0, 0.0), (1.0, 0.0), (1.0, 0.1)])  # within an element
-        self.assertEqual(place_stations(inside).axis, ALONG_ELEMENTS)
+        for post in ([(2.0, 0.0), (2.0, 0.1)], [(1.0, 0.0), (1.0, 0.1)]):  # at a node, within an element
+            self.assertEqual(place_stations(np.concatenate([chain, post])).axis, ALONG_ELEMENTS)
 
 
 if __name__ == "__main__":

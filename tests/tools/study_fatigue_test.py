@@ -94,6 +94,7 @@ class StudyOfFatigue(StudyCase):
         for old, new, message in (
             ('[fatigue]\ncategory = 71.0\nslopes = [3, 3]\nfactor = 1.5\n', "", "needs the table [fatigue] with a"),
             ("category = 71.0", "category = 0", "'category', got 0, expected a number above 0"),
+            ("category = 71.0", "category = 71e6", "'category', got 71000000.0, expected at most 10000 MPa"),
             ("category = 71.0\n", "", "'category' is missing, expected a number above 0"),
             ("slopes = [3, 3]", "slopes = [3]", "'slopes', got [3], expected two numbers above 0"),
             ("factor = 1.5", "factr = 1.5", "unknown key 'factr' (known keys: category, slopes, knee, "),

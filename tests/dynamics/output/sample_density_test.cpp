@@ -1,5 +1,6 @@
 #include "dynamics/output/sample_density.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,9 +24,21 @@ TEST_CASE("the roughness of a sine is that of its samples per period (output, eq
     const double cosine = std::cos(2.0 * std::numbers::pi / p);
     const double expected = 2.0 / 3.0 * (1.0 - cosine) * (1.0 - cosine);
     CHECK(make_sine(p, 0.0).roughness(kFloor) == Approx(expected).epsilon(2e-3));
+    CHECK(make_sine(p, 5.0).roughness_by_steps(kFloor) == Approx(expected).epsilon(2e-3));  // (output, eq. 3)
   }
   // A constant is smooth, and part of the size: the mean square is 9.5.
   CHECK(make_sine(4.0, 3.0).roughness(kFloor) == Approx(2.0 / 3.0 * std::sqrt(0.5 / 9.5)).epsilon(2e-3));
+}
+
+TEST_CASE("a change of level does not hide a vibration from the roughness by steps") {
+  SampleDensity density;
+  for (int i = 0; i < 200; ++i)
+    density.add_sample(std::min(i, 50) + (i > 100 ? std::sin(2.0 * std::numbers::pi * i / 3.3) : 0.0));
+  CHECK(density.roughness(kFloor) < 0.05);
+  CHECK(density.roughness_by_steps(kFloor) > 0.4);
+  SampleDensity level;
+  for (int i = 0; i < 100; ++i) level.add_sample(i < 50 ? 1.0 : 1.0 + 1e-9 * (i % 2));
+  CHECK(level.roughness_by_steps(kFloor) < 0.01);
 }
 
 TEST_CASE("four samples, and samples below the floor, are not called rough") {

@@ -33,13 +33,12 @@ from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.runs.section_stress import FROM_LOADS, find_gap, list_sources
 from sprung_tools.runs.stations import ALONG_X
-from sprung_tools.signals.fatigue_damage import StrengthLine
+from sprung_tools.signals.fatigue_damage import LARGEST_STRESS, StrengthLine
 from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
 MPA, HOUR = 1e6, 3600.0
-LARGEST_STRENGTH = 1e4  # MPa: no metal has more
 SAME_PLACE = 1e-6  # m
 DUTY = "duty"  # the runs together, in tables
 HEADINGS = ("body", "run", "from", "x m", "y m", "element", "side", "highest MPa", "lowest MPa", "largest range MPa",
@@ -121,6 +120,13 @@ def find_duty(all_found: Sequence[Found], repetitions: Sequence[float], num_runs
     return duty
 
 
+def list_duty_remarks(all_found: Sequence[Found], duty: Sequence[Found]) -> list[str]:
+    """What is not in the duty, because not all runs have it."""
+    there = {(one.body, one.source) for one in duty}
+    left = dict.fromkeys((one.body, one.source) for one in all_found if (one.body, one.source) not in there)
+    return [f"remark: {DUTY}: without '{body}' from its {source}, which not all runs have" for body, source in left]
+
+
 def parse_places(texts: Sequence[str], bodies: Sequence[str]) -> list[AskedPlace]:
     """Places `BODY:X` or `BODY:X,Y`. InputError for anything else."""
     places = []
@@ -151,6 +157,12 @@ def find_stations(found: Found, asked: AskedPlace) -> list[int]:
         place = ", ".join(f"{one:g}" for one in where)
         raise InputError(f"--at: error: {place} m is beyond '{found.body}', which reaches in {reach}")
     distances = np.linalg.norm(near - where, axis=1)
+    nearest = int(np.argmin(distances))
+    ends = section.positions[section.elements == section.elements[nearest]]
+    if distances[nearest] > 0.5 * np.linalg.norm(np.ptp(ends, axis=0)) + SAME_PLACE:
+        place = ", ".join(f"{one:g}" for one in where)
+        raise InputError(f"--at: error: '{found.body}' has no section at {place} m; the nearest is at "
+                         f"{section.name_place(nearest)}")  # fmt: skip
     return [int(station) for station in np.flatnonzero(distances <= np.min(distances) + SAME_PLACE)]
 
 
@@ -195,7 +207,7 @@ def pack_all(found: Sequence[Found]) -> dict[str, Any]:
 
 
 def make_json(runs: Sequence[Run], windows: Sequence[Span], all_found: Sequence[Found], duty: Sequence[Found],
-              asked: argparse.Namespace, line: StrengthLine) -> str:  # fmt: skip
+              asked: argparse.Namespace, line: StrengthLine, remarks: Sequence[str]) -> str:  # fmt: skip
     """Everything as JSON, in SI units."""
     packed = [
         {"label": run.label, "file": run.results.path, **describe_run(run.results, window),
@@ -203,7 +215,8 @@ def make_json(runs: Sequence[Run], windows: Sequence[Span], all_found: Sequence[
         for run, window in zip(runs, windows)
     ]  # fmt: skip
     whole = {"format": JSON_FORMAT, "version": JSON_VERSION, "strength_line": line._asdict(),
-             "stress_factor": asked.factor, "runs": packed}  # fmt: skip
+             "stress_factor": asked.factor, "remarks": [one.removeprefix("remark: ") for one in remarks],
+             "runs": packed}  # fmt: skip
     if duty:
         whole[DUTY] = {"repetitions": asked.duty, **pack_all(duty)}
     return json.dumps(whole, indent=1, ensure_ascii=False, allow_nan=False)
@@ -269,18 +282,12 @@ def read_line(arguments: argparse.Namespace) -> StrengthLine:
     for name, value in values:
         if value is not None and not 0.0 < value < float("inf"):
             raise InputError(f"{name}: error: is {value:g}, expected a finite value > 0")
+    for name, value in (("--category", arguments.category), ("--strength", arguments.strength)):
+        if value is not None and MPA * value > LARGEST_STRESS:
+            raise InputError(f"{name}: error: is {value:g}, expected at most {LARGEST_STRESS / MPA:g} MPa")
     strength = None if arguments.strength is None else MPA * arguments.strength
     slopes = (arguments.slopes[0], arguments.slopes[1])
     return StrengthLine(MPA * arguments.category, slopes, arguments.knee, arguments.endurance, strength)
-
-
-def list_line_remarks(arguments: argparse.Namespace) -> list[str]:
-    """That strengths are probably in Pa, if they are."""
-    return [
-        f"remark: {name} is {value:g} MPa: is it in Pa?"
-        for name, value in (("--category", arguments.category), ("--strength", arguments.strength))
-        if value is not None and value > LARGEST_STRENGTH
-    ]
 
 
 def list_source_remarks(runs: Sequence[Run], bodies: Sequence[str]) -> list[str]:
@@ -307,11 +314,14 @@ def main() -> int:
     if arguments.output and os.path.abspath(arguments.output) == os.path.abspath(arguments.histories or ""):
         raise InputError(f"{arguments.histories}: error: is the name of the picture, too")
     runs = open_runs(arguments.runs)
+    if arguments.duty and any(run.label == DUTY for run in runs):
+        raise InputError(f"--duty: error: a run has the label '{DUTY}', which the runs together have; give another one")
     windows = [read_window(run.results, arguments.start, arguments.end) for run in runs]
     bodies, gaps = choose_bodies(runs, arguments.bodies)
     asked = parse_places(arguments.at, bodies)
     all_found = find_fatigue(runs, windows, bodies, line, arguments.factor)
     duty = find_duty(all_found, arguments.duty, len(runs)) if arguments.duty else []
+    remarks = [*gaps, *list_source_remarks(runs, bodies), *(list_duty_remarks(all_found, duty) if duty else [])]
     if arguments.output:
         body, place = choose_drawn(all_found, asked)
         curves = [DrawnFatigue(one.label, one.source, one.fatigue) for one in all_found if one.body == body]
@@ -319,11 +329,10 @@ def main() -> int:
     if arguments.histories:
         write_histories(arguments.histories, all_found, asked)
     if arguments.json:
-        print(make_json(runs, windows, all_found, duty, arguments, line))
+        print(make_json(runs, windows, all_found, duty, arguments, line, remarks))
         return 0
     spans = describe_spans(runs, windows)
-    doubts = [f"statistics over: {spans}; nominal stresses of the beam", *list_doubts(runs), *gaps,
-              *list_source_remarks(runs, bodies), *list_line_remarks(arguments)]  # fmt: skip
+    doubts = [f"statistics over: {spans}; nominal stresses of the beam", *list_doubts(runs), *remarks]
     rows = sorted(make_rows([*all_found, *duty], asked), key=lambda row: bodies.index(row[0]))
     print("\n".join(doubts) + "\n\n" + format_table(HEADINGS, rows))
     return 0

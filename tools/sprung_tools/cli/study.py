@@ -76,7 +76,8 @@ def format_effects(effects: list[Effect]) -> str:
     ranges = list(dict.fromkeys(one.parameter for one in effects if one.is_of_ranges and one.share is not None))
     if ranges:
         text.append(f"remark: many values are put into five groups or fewer, whose means count: {', '.join(ranges)}")
-    unknown = list(dict.fromkeys(one.parameter for one in effects if one.share is None))
+    judged = {one.parameter for one in effects if one.share is not None}
+    unknown = [one for one in dict.fromkeys(one.parameter for one in effects) if one not in judged]
     weak = sum(one.share is not None and not one.is_seen for one in effects)
     if len(seen) > MOST_SHOWN:
         others = len(seen) - MOST_SHOWN

@@ -41,14 +41,16 @@ def flatten_settings(
     table: Mapping[str, Any], prefix: str = "", is_value: Callable[[str, Mapping[str, Any]], bool] = never
 ) -> dict[str, Any]:
     """Tables in tables as keys with dots: {"road": {"height": 0.1}} → {"road.height": 0.1}.
-    is_value: whether the table of a key is a value as a whole."""
+    is_value: whether the table of a key is a value as a whole. InputError for a key that is given twice."""
     flat: dict[str, Any] = {}
     for key, value in table.items():
         path = f"{prefix}{key}"
-        if isinstance(value, Mapping) and not is_value(path, value):
-            flat |= flatten_settings(value, f"{path}.", is_value)
-        else:
-            flat[path] = value
+        is_table = isinstance(value, Mapping) and not is_value(path, value)
+        found = flatten_settings(value, f"{path}.", is_value) if is_table else {path: value}
+        for one in found:
+            if one in flat:
+                raise InputError(f"{one}: error: is given twice")
+        flat |= found
     return flat
 
 

@@ -38,9 +38,13 @@ def read_stations(results: ResultsFile, body: str) -> Floats:
 
 
 def is_drawn_over_x(stations: Floats) -> bool:
-    """Whether a body is a slender chain along x: its elements follow each other along x, in whatever order."""
+    """Whether a body is a slender chain along x: its elements follow each other along x, in whatever order, and none
+    stands upright."""
     height, length = np.ptp(stations[:, 1]), np.ptp(stations[:, 0])
     if length == 0.0 or height > SLENDER * length:
+        return False
+    width, rise = np.abs(np.diff(stations.reshape(-1, 2, 2), axis=1))[:, 0].T
+    if np.any((width <= TOUCHING * length) & (rise > TOUCHING * length)):
         return False
     ends = np.sort(stations[:, 0].reshape(-1, 2), axis=1)
     ends = ends[np.argsort(np.mean(ends, axis=1), kind="stable")]

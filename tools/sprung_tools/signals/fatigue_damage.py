@@ -24,6 +24,7 @@ from sprung_tools.files.array_types import Floats
 from sprung_tools.signals.rainflow import Cycles
 
 CATEGORY_CYCLES = 2e6  # at which the detail category is the range
+LARGEST_STRESS = 1e10  # Pa: no material bears more, so that a larger strength is probably in another unit
 
 
 class StrengthLine(NamedTuple):

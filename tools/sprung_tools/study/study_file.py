@@ -10,7 +10,7 @@ from typing import Any
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.toml_file import Place, TomlFile
 from sprung_tools.runs.measures import HISTORIES, OF_HISTORIES
-from sprung_tools.signals.fatigue_damage import StrengthLine
+from sprung_tools.signals.fatigue_damage import LARGEST_STRESS, StrengthLine
 from sprung_tools.study.description import (
     COMMANDS,
     FATIGUE_KEYS,
@@ -193,6 +193,9 @@ def read_strength(file: TomlFile) -> Strength | None:
         return unit * reader.positive(key) if key in reader.table else None
 
     first, second = reader.take("slopes", are_slopes, "two numbers above 0", [3.0, 5.0])
+    for key in ("category", "strength"):
+        if key in reader.table and MPA * reader.positive(key) > LARGEST_STRESS:
+            raise reader.fail(key, f"at most {LARGEST_STRESS / MPA:g} MPa")
     line = StrengthLine(MPA * reader.positive("category"), (float(first), float(second)), reader.positive("knee", 5e6),
                         number("endurance", 1.0), number("strength", MPA))  # fmt: skip
     return Strength(line, reader.positive("factor", 1.0))
