@@ -307,16 +307,20 @@ class Report(unittest.TestCase):
                 run_all(*arguments)
                 self.assertTrue((folder / "untrusted.txt").exists())
 
-    def test_horizontal_accelerations_between_outputs_are_allowed_where_none_are_taken(self):
+    def test_values_between_outputs_are_allowed_where_none_are_taken(self):
         folder = self.folder / "coarse"
         folder.mkdir()
         program = folder / "program"
-        said = "values every 0.001 s do not resolve the accelerations: that of chassis.seat along"
-        for axis, is_known, is_refused in (("x", True, False), ("x", False, True), ("y", True, True)):
-            with self.subTest(axis=axis, is_known=is_known):
-                program.write_text(f"#!/bin/sh\necho 'warning: {said} {axis} reached 2 m/s²'\n", encoding="utf-8")
+        seat, arm = "accelerations: that of chassis.seat along {} reached 2 m/s²", "bending moments of {}: one changes"
+        for quantity, is_known, is_refused in (
+            (seat.format("x"), True, False), (seat.format("x"), False, True), (seat.format("y"), True, True),
+            (arm.format("front_long_arm"), True, False), (arm.format("chassis"), True, True),
+        ):  # fmt: skip
+            with self.subTest(quantity=quantity, is_known=is_known):
+                said = f"values every 0.001 s do not resolve the {quantity}"
+                program.write_text(f"#!/bin/sh\necho 'warning: {said}'\n", encoding="utf-8")
                 program.chmod(0o755)
-                run = PaperRun("coarse", "bump.toml", (), is_coarse_along_x=is_known)
+                run = PaperRun("coarse", "bump.toml", (), is_coarse_elsewhere=is_known)
                 arguments = (Programs(program, program), [run], folder, lambda _: None)
                 if is_refused:
                     with self.assertRaisesRegex(InputError, "no run for a report"):

@@ -41,12 +41,12 @@ def list_certified_runs() -> list[PaperRun]:
     """All runs of this section: the paper's cases with the certified chassis, and what choosing and changing vectors
     saves."""
     runs = [
-        PaperRun("bump_certified_undamped", "bump.toml", CERTIFIED + UNDAMPED, is_coarse_along_x=True),
+        PaperRun("bump_certified_undamped", "bump.toml", CERTIFIED + UNDAMPED, is_coarse_elsewhere=True),
         PaperRun("terrain_certified_damped", "terrain.toml", CERTIFIED + (f"modal_damping.chassis={FREE_RATIO:g}",)),
         PaperRun("terrain_certified_links", "terrain.toml", CERTIFIED + LINKS),
     ]
     return runs + [
-        PaperRun(f"{road}_{model}{suffix}", f"{road}.toml", overrides + method, is_coarse_along_x=bool(suffix))
+        PaperRun(f"{road}_{model}{suffix}", f"{road}.toml", overrides + method, is_coarse_elsewhere=bool(suffix))
         for road in ROADS
         for method, suffix in METHODS.values()
         for model, overrides in MODELS.items()

@@ -33,7 +33,7 @@ class PaperRun(NamedTuple):
     name: str
     file: str
     overrides: tuple[str, ...]
-    is_coarse_along_x: bool = False  # its outputs miss horizontal accelerations, of which the report takes none of it
+    is_coarse_elsewhere: bool = False  # its outputs miss what the report does not take of it (COARSE_ELSEWHERE)
 
 
 class Band(NamedTuple):
