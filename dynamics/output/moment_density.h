@@ -9,8 +9,8 @@
 namespace sprung::dynamics {
 
 /// Judges whether the outputs are close enough for the bending moments along a body, by the mean moment of
-/// each element, from the loads where there is one: by its change since the first output (output, "Density of
-/// outputs"). Checked by tests/dynamics/program/coarse_moments_test.py
+/// each element, from the loads where there is one: its change since the first output (output, "Density of
+/// outputs"). Checked by tests/verification/supported_beam_test.py
 class MomentDensity {
  public:
   explicit MomentDensity(const BodySections& body);
