@@ -5,45 +5,12 @@ import re
 import unittest
 
 import numpy as np
+from cantilever import DESIGN, VEHICLE
 from tool_test_case import ToolTestCase, run_program
 
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.section_stress import calc_section_stress
 
-DESIGN = """
-[materials.steel]
-youngs_modulus = 2.1e11
-density = 7850.0
-[sections.bar]
-material = "steel"
-shape = "rectangle"
-width = 0.05
-height = 0.12
-count = 2
-[points]
-foot = [0.0, 0.0]
-tip = [2.0, 0.0]
-[[lines]]
-through = ["foot", "tip"]
-section = "bar"
-elements = 4
-[reference]
-point = "foot"
-[modes]
-all = true
-damping_ratio = 0.02
-"""
-VEHICLE = """
-name = "cantilever"
-[bodies.beam]
-superelement = "beam"
-position = [0.0, 0.0]
-[[joints]]
-name = "wall"
-type = "fixed"
-a = "ground.origin"
-b = "beam.foot"
-"""
 RUN = """
 vehicle = "vehicle.toml"
 speed = 0.0

@@ -3,48 +3,21 @@
 import json
 import unittest
 
+from cantilever import DESIGN, VEHICLE
 from study_case import DYNAMICS, REDUCE, StudyCase
 from tool_test_case import run_program
 
-DESIGN = """
-[materials.steel]
-youngs_modulus = 2.1e11
-density = 7850.0
-[sections.bar]
-material = "steel"
-shape = "rectangle"
-width = 0.05
-height = 0.12
-[points]
-foot = [0.0, 0.0]
-tip = [2.0, 0.0]
-[[lines]]
-through = ["foot", "tip"]
-section = "bar"
-elements = 4
-[reference]
-point = "foot"
-[modes]
-all = true
-damping_ratio = 0.02
-"""
-VEHICLE = """
-name = "cantilever"
-gravity = [0.0, 0.0]
-[bodies.beam]
-superelement = "beam"
-position = [0.0, 0.0]
-[[joints]]
-name = "wall"
-type = "fixed"
-a = "ground.origin"
-b = "beam.foot"
+SHAKEN = (
+    "gravity = [0.0, 0.0]"
+    + VEHICLE
+    + """
 [[forces]]
 name = "shaker"
 type = "applied"
 point = "beam.tip"
 force = [0.0, { harmonic = { amplitude = 1000.0, frequency = 3.0 } }]
 """
+)
 RUN = 'vehicle = "vehicle.toml"\nduration = 1.0\noutput_step = 0.002\n[modes]\nbeam = "all"\n'
 STUDY = """measures = ["fatigue/beam/from_loads/damage", "fatigue/beam/from_loads/x", "fatigue/*/largest_range"]
 designs = ["beam.toml"]
@@ -62,7 +35,7 @@ values = [1000.0, 2000.0]
 class StudyOfFatigue(StudyCase):
     def setUp(self):
         super().setUp()
-        for name, text in (("beam.toml", DESIGN), ("vehicle.toml", VEHICLE), ("run.toml", RUN)):
+        for name, text in (("beam.toml", DESIGN), ("vehicle.toml", SHAKEN), ("run.toml", RUN)):
             (self.folder / name).write_text(text, encoding="utf-8")
 
     def test_its_damage_is_that_of_the_command(self):
