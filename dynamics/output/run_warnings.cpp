@@ -209,8 +209,7 @@ void warn_of_coarse_moments(const RunStatistics& statistics, std::vector<RunWarn
           "one changed by {:.3g} N·m in between, and by {:.3g} to {:.3g} N·m at them, since the start",
           most_missed->farthest_between(), most_missed->smallest(), most_missed->largest());
     } else if (worst_roughness > kTooRough) {
-      reason =
-          "one changes from value to value as a vibration does that has fewer than five of them in a period";
+      reason = "one of them vibrates with fewer than five values in a period";
     } else {
       continue;
     }

@@ -74,12 +74,10 @@ void add_static(InterfaceResidual& residual, double tolerance, std::vector<Resid
 
 // Why the basis does not get better with as many vectors as there are motions.
 const char* name_obstacle(const ModalProblem& problem) {
-  return problem.num_massless > 0 ? "no other motion has mass: give points without mass of their own, as at "
-                                    "the end of a spring, a "
-                                    "[[point_masses]], or lines more elements, or take the basis "
-                                    "\"fixed-interface\", or ask for a "
-                                    "larger tolerance"
-                                  : "rounding keeps it from getting better; ask for a larger tolerance";
+  if (problem.num_massless == 0) return "rounding keeps it from getting better; ask for a larger tolerance";
+  return "no other motion has mass: give points without mass of their own, as at the end of a spring, a "
+         "[[point_masses]], or lines more elements, or take the basis \"fixed-interface\", or ask for a "
+         "larger tolerance";
 }
 
 // @param num_left  motions with mass that are no free modes of the basis

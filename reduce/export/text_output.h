@@ -16,7 +16,7 @@ namespace sprung::reduce {
 std::string format_real(double number);
 
 /// Files that belong together: they get their names when all are written, so that a full disk leaves those of
-/// before. Checked by tests/reduce/export/program_export_test.py
+/// before. Checked by tests/reduce/export/export_test.py
 class TextFiles {
  public:
   /// @throws support::InputError if it cannot be written

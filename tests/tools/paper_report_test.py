@@ -311,7 +311,7 @@ class Report(unittest.TestCase):
         folder = self.folder / "coarse"
         folder.mkdir()
         program = folder / "program"
-        seat, arm = "accelerations: that of chassis.seat along {} reached 2 m/s²", "bending moments of {}: one changes"
+        seat, arm = "accelerations: that of chassis.seat along {} reached 2 m/s²", "bending moments of {}: one of them"
         for quantity, is_known, is_refused in (
             (seat.format("x"), True, False), (seat.format("x"), False, True), (seat.format("y"), True, True),
             (arm.format("front_long_arm"), True, False), (arm.format("chassis"), True, True),

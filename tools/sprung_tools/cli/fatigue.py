@@ -150,20 +150,19 @@ def find_stations(found: Found, asked: AskedPlace) -> list[int]:
     section, where = found.fatigue.section, asked.where
     if len(where) == 1 and section.axis != ALONG_X:
         raise InputError(f"--at: error: '{found.body}' has sections above each other: give {found.body}:X,Y")
+    place = ", ".join(f"{one:g}" for one in where)
     near = section.positions[:, : len(where)]
     low, high = np.min(near, axis=0), np.max(near, axis=0)
     if np.any(where < low - SAME_PLACE) or np.any(where > high + SAME_PLACE):
         reach = ", ".join(f"{one} from {a:.4g} to {b:.4g} m" for one, a, b in zip("xy", low, high))
-        place = ", ".join(f"{one:g}" for one in where)
         raise InputError(f"--at: error: {place} m is beyond '{found.body}', which reaches in {reach}")
     distances = np.linalg.norm(near - where, axis=1)
     nearest = int(np.argmin(distances))
     ends = section.positions[section.elements == section.elements[nearest]]
     if distances[nearest] > 0.5 * np.linalg.norm(np.ptp(ends, axis=0)) + SAME_PLACE:
-        place = ", ".join(f"{one:g}" for one in where)
         raise InputError(f"--at: error: '{found.body}' has no section at {place} m; the nearest is at "
                          f"{section.name_place(nearest)}")  # fmt: skip
-    return [int(station) for station in np.flatnonzero(distances <= np.min(distances) + SAME_PLACE)]
+    return [int(station) for station in np.flatnonzero(distances <= distances[nearest] + SAME_PLACE)]
 
 
 def list_places(found: Found, asked: Sequence[AskedPlace]) -> list[Place]:
