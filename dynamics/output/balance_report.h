@@ -7,8 +7,8 @@
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/linear/vehicle_modes.h"
-#include "dynamics/output/run_warnings.h"
 #include "dynamics/section_loads/resting_sections.h"
+#include "dynamics/statistics/run_warnings.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {

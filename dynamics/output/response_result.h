@@ -7,7 +7,7 @@
 #include "dynamics/input/run.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/linear/linear_outputs.h"
-#include "dynamics/output/run_warnings.h"
+#include "dynamics/statistics/run_warnings.h"
 
 namespace sprung::dynamics {
 

@@ -15,10 +15,10 @@
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/mode_choice/basis_choice.h"
 #include "dynamics/output/run_histories.h"
-#include "dynamics/output/run_statistics.h"
-#include "dynamics/output/run_warnings.h"
 #include "dynamics/output/storage_plan.h"
 #include "dynamics/simulation/transient.h"
+#include "dynamics/statistics/run_statistics.h"
+#include "dynamics/statistics/run_warnings.h"
 #include "tools/support/hdf5/hdf5_file.h"
 
 namespace sprung::dynamics {

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "dynamics/section_loads/section_statistics.h"
+
 namespace sprung::dynamics {
 
 namespace {

@@ -6,9 +6,9 @@
 #include "dynamics/input/run.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
-#include "dynamics/output/run_statistics.h"
-#include "dynamics/output/run_warnings.h"
 #include "dynamics/output/storage_plan.h"
+#include "dynamics/statistics/run_statistics.h"
+#include "dynamics/statistics/run_warnings.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {

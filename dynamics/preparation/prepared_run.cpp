@@ -11,12 +11,12 @@
 
 #include "dynamics/input/uncovered_loads.h"
 #include "dynamics/input/unit_remarks.h"
-#include "dynamics/output/run_warnings.h"
 #include "dynamics/preparation/automatic_modes.h"
 #include "dynamics/preparation/massless_check.h"
 #include "dynamics/preparation/start_state.h"
 #include "dynamics/preparation/unlikely_balance.h"
 #include "dynamics/road/flat_road.h"
+#include "dynamics/statistics/run_warnings.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/files/read_text_file.h"
 #include "tools/support/terminal/print.h"

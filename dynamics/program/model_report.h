@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/output/run_warnings.h"
 #include "dynamics/output/storage_plan.h"
 #include "dynamics/preparation/prepared_run.h"
+#include "dynamics/statistics/run_warnings.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {

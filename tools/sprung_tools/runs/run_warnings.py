@@ -16,7 +16,7 @@ from sprung_tools.runs.labelled_runs import Run
 from sprung_tools.runs.mode_history import read_neglected
 from sprung_tools.runs.stored_histories import list_gaps
 
-# The limits at which sprung-dynamics itself warns (dynamics/output/run_warnings.cpp).
+# The limits at which sprung-dynamics itself warns (dynamics/statistics/run_warnings.cpp).
 TOO_MUCH_LEFT_OUT = 0.05  # share of the largest deflection or acceleration
 ALARMING_CLOSURE = 1e-3  # relative
 NEARLY = 0.9  # of the run's largest acceleration

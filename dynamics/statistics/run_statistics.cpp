@@ -1,4 +1,4 @@
-#include "dynamics/output/run_statistics.h"
+#include "dynamics/statistics/run_statistics.h"
 
 #include <fmt/format.h>
 

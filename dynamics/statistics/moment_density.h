@@ -3,14 +3,14 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/output/sample_density.h"
 #include "dynamics/section_loads/body_sections.h"
+#include "dynamics/statistics/sample_density.h"
 
 namespace sprung::dynamics {
 
 /// Judges whether the outputs are close enough for the bending moments along a body, by the mean moment of
-/// each element, from the loads where there is one: its change since the first output (output, "Density of
-/// outputs"). Checked by tests/verification/supported_beam_test.py
+/// each element, from the loads where there is one: its change since the first output (statistics, "Density
+/// of outputs"). Checked by tests/verification/supported_beam_test.py
 class MomentDensity {
  public:
   explicit MomentDensity(const BodySections& body);

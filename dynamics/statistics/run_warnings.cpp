@@ -1,4 +1,4 @@
-#include "dynamics/output/run_warnings.h"
+#include "dynamics/statistics/run_warnings.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

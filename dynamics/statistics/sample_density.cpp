@@ -1,4 +1,4 @@
-#include "dynamics/output/sample_density.h"
+#include "dynamics/statistics/sample_density.h"
 
 #include <algorithm>
 #include <cmath>

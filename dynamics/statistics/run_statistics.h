@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/output/moment_density.h"
-#include "dynamics/output/sample_density.h"
 #include "dynamics/section_loads/body_bending.h"
 #include "dynamics/section_loads/certified_error.h"
 #include "dynamics/section_loads/section_statistics.h"
 #include "dynamics/simulation/transient.h"
+#include "dynamics/statistics/moment_density.h"
+#include "dynamics/statistics/sample_density.h"
 #include "tools/support/files/bytes.h"
 
 namespace sprung::dynamics {
@@ -59,7 +59,7 @@ class RunStatistics {
   std::vector<PointStatistics> point_statistics() const;
   /// Largest |φ| at any output [m, rad].
   double constraint_violation() const { return constraint_violation_; }
-  /// Relative error of the energy balance (output, eq. 1).
+  /// Relative error of the energy balance (statistics, eq. 1).
   double energy_closure() const;
   long num_samples() const { return num_samples_; }
   double output_step() const { return window_.output_step; }  ///< [s]

@@ -1,4 +1,4 @@
-#include "dynamics/output/sample_density.h"
+#include "dynamics/statistics/sample_density.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,13 @@ SampleDensity make_sine(double samples_per_period, double offset) {
   return density;
 }
 
-TEST_CASE("the roughness of a sine is that of its samples per period (output, eq. 2)") {
+TEST_CASE("the roughness of a sine is that of its samples per period (statistics, eq. 2)") {
   for (const double p : {2.3, 4.7, 7.1, 30.0}) {
     const double cosine = std::cos(2.0 * std::numbers::pi / p);
     const double expected = 2.0 / 3.0 * (1.0 - cosine) * (1.0 - cosine);
     CHECK(make_sine(p, 0.0).roughness(kFloor) == Approx(expected).epsilon(2e-3));
-    CHECK(make_sine(p, 5.0).roughness_by_steps(kFloor) == Approx(expected).epsilon(2e-3));  // (output, eq. 3)
+    CHECK(make_sine(p, 5.0).roughness_by_steps(kFloor) ==
+          Approx(expected).epsilon(2e-3));  // (statistics, eq. 3)
   }
   // A constant is smooth, and part of the size: the mean square is 9.5.
   CHECK(make_sine(4.0, 3.0).roughness(kFloor) == Approx(2.0 / 3.0 * std::sqrt(0.5 / 9.5)).epsilon(2e-3));

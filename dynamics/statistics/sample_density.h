@@ -7,8 +7,8 @@ namespace sprung::dynamics {
 
 /// Judges whether the samples of a quantity are close enough for its extremes: by values in between, where
 /// some are known, and by the difference of each sample from the cubic through its four neighbours
-/// (output, "Density of outputs"). The samples come at equal intervals, other values in any order. Checked by
-/// tests/dynamics/output/sample_density_test.cpp
+/// (statistics, "Density of outputs"). The samples come at equal intervals, other values in any order.
+/// Checked by tests/dynamics/statistics/sample_density_test.cpp
 class SampleDensity {
  public:
   void add_sample(double value);
@@ -18,7 +18,7 @@ class SampleDensity {
   /// with fewer than five samples.
   double roughness(double floor) const;
   /// Likewise by the steps from sample to sample in place of the samples, so that a change of level does not
-  /// hide a vibration; the same for a sine (output, eq. 3). @param floor  of the steps, > 0
+  /// hide a vibration; the same for a sine (statistics, eq. 3). @param floor  of the steps, > 0
   double roughness_by_steps(double floor) const;
   double step_rms() const;  ///< from sample to sample; 0 with fewer than two
   /// The value that lies farthest outside of the range of the samples, if one does.

@@ -1,4 +1,4 @@
-#include "dynamics/output/moment_density.h"
+#include "dynamics/statistics/moment_density.h"
 
 #include <algorithm>
 #include <cmath>

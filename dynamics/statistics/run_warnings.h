@@ -7,8 +7,8 @@
 #include "dynamics/adaptivity/mode_adaptation.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
-#include "dynamics/output/run_statistics.h"
 #include "dynamics/simulation/transient.h"
+#include "dynamics/statistics/run_statistics.h"
 #include "tools/support/hdf5/hdf5_file.h"
 #include "tools/support/terminal/json.h"
 
