@@ -199,7 +199,8 @@ Run read_run(const support::TomlDocument& document) {
   run.vehicle_path = folder / root.string("vehicle");
   run.vehicle_location = root.at("vehicle").location();
   run.speed = root.number_or("speed", 0.0, support::any("m/s"));
-  run.speed_location = root.find("speed") ? root.at("speed").location() : root.location();
+  run.has_speed = root.has("speed");
+  run.speed_location = run.has_speed ? root.at("speed").location() : root.location();
   read_times(root, run);
   read_statistics(root, run);
   if (const std::optional<support::TomlValue> start = root.find("start")) {

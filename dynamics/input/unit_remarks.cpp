@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "dynamics/road/road_spectrum.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -27,6 +29,8 @@ constexpr double kSlowestDamping = 50.0;                 // s, of the lighter bo
 constexpr double kLongestPresliding = 0.1;               // m
 constexpr double kLeastPressure = 1000.0;                // Pa
 constexpr double kHighestBump = 5.0;                     // m
+constexpr double kRoughestRoad = 1.0;                    // m³ at 0.1 1/m: four times that of class H
+constexpr double kLargestRms = 1.0;                      // m, of a random road
 constexpr double kStrongestGravity = 1000.0;             // m/s², more than 100 g: a centrifuge has less
 constexpr double kLargestTurn = 2.0 * std::numbers::pi;  // rad, of a body as drawn
 
@@ -168,6 +172,17 @@ void remark_on_rates(const Vehicle& vehicle, const ForceDescription& force,
   }
 }
 
+void remark_on_density(const RoadSpectrum& spectrum, const char* key, const support::SourceLocation& location,
+                       std::vector<std::string>& remarks) {
+  const double density = spectrum.density(RoadSpectrum::kReferenceWavenumber);
+  if (density <= kRoughestRoad) return;
+  remarks.push_back(remark_at(
+      location,
+      fmt::format("'{}' has a density of {:.4g} m³ at 0.1 1/m, where class H of ISO 8608 has {:.2g} m³; "
+                  "densities are in m³, not in 10⁻⁶ m³",
+                  key, density, calc_iso_density('H'))));
+}
+
 }  // namespace
 
 std::vector<std::string> list_unit_remarks(const Run& run, const Vehicle& vehicle) {
@@ -182,6 +197,16 @@ std::vector<std::string> list_unit_remarks(const Run& run, const Vehicle& vehicl
         remark_at(run.road.location,
                   fmt::format("'road.height' is {:.4g} m; heights are in m, not in mm", run.road.height)));
   }
+  if (run.road.random) {
+    remark_on_density(run.road.random->spectrum, "road", run.road.location, remarks);
+    if (run.road.random->rms > kLargestRms) {
+      remarks.push_back(remark_at(
+          run.road.location,
+          fmt::format("'road.rms' is {:.4g} m; heights are in m, not in mm", run.road.random->rms)));
+    }
+  }
+  if (run.response.road)
+    remark_on_density(*run.response.road, "response.road", run.response.location, remarks);
   if (vehicle.gravity.norm() > kStrongestGravity) {
     remarks.push_back(remark_at(
         vehicle.gravity_location,

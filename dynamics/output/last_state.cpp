@@ -28,6 +28,13 @@ std::vector<std::string> list_coordinates(const Model& model) {
   throw support::InputError({.path = file.path().string()}, what);
 }
 
+support::Hdf5Reader open_results(const std::filesystem::path& path) {
+  support::Hdf5Reader file(path);
+  if (!file.has_attribute("/", "format") || file.string_attribute("/", "format") != kResultsFormat)
+    fail(file, "is no results file");
+  return file;
+}
+
 // The last row of a time history.
 Eigen::VectorXd read_last_row(const support::Hdf5Reader& file, const std::string& dataset, std::size_t rows,
                               Eigen::Index size) {
@@ -144,10 +151,12 @@ void write_last_state(support::Hdf5Writer& file, const State& state) {
   file.overwrite("/last_state/velocities", {state.v.data(), size});
 }
 
+double read_run_speed(const std::filesystem::path& results) {
+  return open_results(results).real_attribute("/model", "speed");
+}
+
 State read_last_state(const std::filesystem::path& results, const Model& model) {
-  const support::Hdf5Reader file(results);
-  if (!file.has_attribute("/", "format") || file.string_attribute("/", "format") != kResultsFormat)
-    fail(file, "is no results file");
+  const support::Hdf5Reader file = open_results(results);
   for (const Body& body : model.bodies) {
     const std::string group = "/bodies/" + body.name;
     if (!file.has(group)) fail(file, fmt::format("has no body '{}', which the vehicle has", body.name));

@@ -13,6 +13,10 @@ void make_last_state(support::Hdf5Writer& file, const Model& model);
 /// Writes a state there in place of the one before.
 void write_last_state(support::Hdf5Writer& file, const State& state);
 
+/// The `speed` of the run that a results file is of [m/s].
+/// @throws support::InputError if it is no results file
+double read_run_speed(const std::filesystem::path& results);
+
 /// The state at the last output of a results file, complete or partial.
 /// @param model  with the bodies of the file, by name, and the same modes. A force element takes over its
 ///               states by its name; one that the file does not have starts with its states at rest

@@ -92,6 +92,7 @@ void read_files(const RunRequest& request, Preparation preparation, PreparedRun&
   support::TomlDocument run_document = support::TomlDocument::read(request.run_file);
   apply_overrides(run_document, request.overrides, false);
   prepared.run = read_run(run_document);
+  take_continued_speed(prepared.run);
   if (!support::is_regular_file(prepared.run.vehicle_path)) {
     throw support::InputError(prepared.run.vehicle_location,
                               fmt::format("there is no vehicle file {}", prepared.run.vehicle_path.string()));

@@ -91,6 +91,20 @@ State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::Vect
           .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
 }
 
+void take_continued_speed(Run& run) {
+  if (run.continue_from.empty()) return;
+  const double speed = read_run_speed(run.continue_from);
+  if (run.has_speed && std::abs(run.speed - speed) > kSameSpeed * std::abs(speed)) {
+    throw support::InputError(
+        run.speed_location,
+        fmt::format(
+            "'speed' must be left out, or {:.9g} m/s as in the run that this one continues, got {:.9g}: "
+            "the run goes on with the velocities at the end of {}",
+            speed, run.speed, run.continue_from.string()));
+  }
+  run.speed = speed;
+}
+
 State find_start_state(Eigen::VectorXd q, PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Model& model = prepared.model;

@@ -11,6 +11,11 @@ namespace sprung::dynamics {
 /// A state at t = 0 whose branches are not chosen yet.
 State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
+/// Gives a run that continues another the speed of this other run, from which it follows where the vehicle
+/// is.
+/// @throws support::InputError at `speed` where it is given and differs, or if there is no results file
+void take_continued_speed(Run& run);
+
 /// The state in which a run starts: in balance or as given, with speed, initial motion and rates of joints;
 /// or the last state of another run. Sets prepared.initial_velocities.
 /// @param q         positions of the balance, or as given

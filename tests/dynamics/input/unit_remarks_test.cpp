@@ -136,3 +136,25 @@ TEST_CASE("A bump that is metres high is remarked on") {
   CHECK(dynamics::list_unit_remarks(run, test::read_cart(test::cart_text())) ==
         std::vector<std::string>{"run.toml:5:1: 'road.height' is 80 m; heights are in m, not in mm"});
 }
+
+TEST_CASE("A random road that is rougher than all of ISO 8608 is remarked on") {
+  const dynamics::Vehicle cart = test::read_cart(test::cart_text());
+  dynamics::Run run;
+  run.road.location = {"run.toml", 5, 1};
+  run.response.location = {"run.toml", 9, 1};
+  run.road.random = {.spectrum = dynamics::RoadSpectrum::power_law(64.0, 2.0)};
+  CHECK(dynamics::list_unit_remarks(run, cart) ==
+        std::vector<std::string>{
+            "run.toml:5:1: 'road' has a density of 64 m³ at 0.1 1/m, where class H of ISO 8608 "
+            "has 0.26 m³; densities are in m³, not in 10⁻⁶ m³"});
+  run.road.random = {.spectrum = dynamics::RoadSpectrum::power_law(0.5, 2.0), .rms = 26.4};
+  run.response.road = dynamics::RoadSpectrum::power_law(2.0, 2.0);
+  CHECK(dynamics::list_unit_remarks(run, cart) ==
+        std::vector<std::string>{
+            "run.toml:5:1: 'road.rms' is 26.4 m; heights are in m, not in mm",
+            "run.toml:9:1: 'response.road' has a density of 2 m³ at 0.1 1/m, where class H of "
+            "ISO 8608 has 0.26 m³; densities are in m³, not in 10⁻⁶ m³"});
+  run.road.random->rms = 0.05;
+  run.response.road = dynamics::RoadSpectrum::power_law(dynamics::calc_iso_density('H'), 2.0);
+  CHECK(dynamics::list_unit_remarks(run, cart).empty());
+}

@@ -108,6 +108,15 @@ class Continue(DynamicsTestCase):
                 rtol=0, atol=1e-9,
             )  # fmt: skip
 
+    def test_a_run_that_continues_has_the_speed_of_the_one_before(self):
+        # From the speed follows where on the road the vehicle is, and so whether the road ends before the run.
+        self.make_first()
+        self.edit("bump.toml", "speed = 3.0\n", "")
+        process = self.run_until(0.8, "second.h5", *FROM_FIRST)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        with h5py.File(self.folder / "second.h5") as file:
+            self.assertEqual(file["model"].attrs["speed"], 3.0)
+
     def test_a_run_continues_exactly_from_results_of_single_precision_without_bodies(self):
         single = ("--set", "output.precision=single", "--set", "output.store.bodies=none")
         for name, arguments in (("first.h5", ()), ("small.h5", single)):
@@ -169,6 +178,8 @@ class Continue(DynamicsTestCase):
             "'continue_from'", "and 'initial' exclude each other",
         )  # fmt: skip
         self.assert_refused(self.run_until(0.8, "b.h5", "--set", 'continue_from="none.h5"'), "none.h5", "no such file")
+        self.assert_refused(self.run_until(0.8, "b.h5", *FROM_FIRST, "--set", "speed=5"),
+                            "--set 4: error: 'speed' must be left out, or 3 m/s as in the run that this one")
         before = self.files()
         self.assert_refused(self.run_until(0.8, "./first.h5", *FROM_FIRST), "is also the name of the results")
         self.assertEqual(self.files(), before)

@@ -32,6 +32,7 @@ class SmallFile {
     writer.write("bad", Eigen::Matrix2d{{0.0, 1.0}, {-INFINITY, 2.0}}, "m");
     writer.write("bad_cube", std::vector{0.0, 1.0, 2.0, nan}, {2, 1, 2}, "m");
     writer.attribute("/", "real", 1.5);
+    writer.attribute("/", "not_finite", std::numeric_limits<double>::quiet_NaN());
     writer.attribute("/", "integer", std::int64_t{2});
     writer.attribute("/", "text", "word");
     writer.commit();
@@ -151,6 +152,10 @@ TEST_CASE("an attribute that is missing or of another type is refused") {
         "attribute 'real' of '/' must hold integers, holds real numbers");
   CHECK(file.error([](const Hdf5Reader& r) { r.integer_attribute("/", "text"); }) ==
         "attribute 'text' of '/' must hold integers, holds strings");
+  CHECK(file.error([](const Hdf5Reader& r) { r.real_attribute("/", "text"); }) ==
+        "attribute 'text' of '/' must hold real numbers, holds strings");
+  CHECK(file.error([](const Hdf5Reader& r) { r.real_attribute("/", "not_finite"); }) ==
+        "attribute 'not_finite' of '/' must be finite");
   CHECK(file.error([](const Hdf5Reader& r) { r.string_attribute("/", "real"); }) ==
         "attribute 'real' of '/' must hold strings, holds real numbers");
 }

@@ -22,17 +22,6 @@ std::vector<double> make_values(std::size_t count) {
   return values;
 }
 
-// By the library: no file that this project reads has an attribute that is a real number.
-double read_number_attribute(const std::filesystem::path& path, const char* object, const char* name) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT);
-  double value = std::numeric_limits<double>::quiet_NaN();
-  H5Aread(attribute, H5T_NATIVE_DOUBLE, &value);
-  H5Aclose(attribute);
-  H5Fclose(file);
-  return value;
-}
-
 // The rows of a matrix one after the other.
 std::vector<double> row_major(const RowMatrix& matrix) {
   return {matrix.data(), matrix.data() + matrix.size()};
@@ -103,8 +92,8 @@ TEST_CASE("attributes come back, the last value of each") {
     writer.attribute("x", "note", "");
     writer.commit();
   }
-  CHECK(read_number_attribute(folder / "a.h5", "/bodies/chassis", "mass") == 11950.5);
   const Hdf5Reader reader(folder / "a.h5");
+  CHECK(reader.real_attribute("bodies/chassis", "mass") == 11950.5);
   CHECK(reader.string_attribute("/", "format") == "sprung results");
   CHECK(reader.string_attribute("/", "text") == std::string(100000, 't'));
   CHECK(reader.integer_attribute("/", "complete") == 1);

@@ -124,6 +124,10 @@ std::string Hdf5Reader::string_attribute(const std::string& object, const std::s
   return attempt([&] { return hdf5::StoredAttribute(file_.get(), object, name, file_size_).read_string(); });
 }
 
+double Hdf5Reader::real_attribute(const std::string& object, const std::string& name) const {
+  return attempt([&] { return hdf5::StoredAttribute(file_.get(), object, name, file_size_).read_real(); });
+}
+
 std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) const {
   return attempt([&] { return hdf5::StoredAttribute(file_.get(), object, name, file_size_).read_integer(); });
 }

@@ -47,6 +47,7 @@ class Hdf5Reader {
   bool has_attribute(const std::string& object, const std::string& name) const;
   std::string string_attribute(const std::string& object, const std::string& name) const;
   std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+  double real_attribute(const std::string& object, const std::string& name) const;
 
   const std::filesystem::path& path() const { return path_; }
 

@@ -251,6 +251,14 @@ std::int64_t StoredAttribute::read_integer() const {
   return value;
 }
 
+double StoredAttribute::read_real() const {
+  expect_real(type_.get(), label_);
+  double value = 0.0;
+  check(H5Aread(attribute_.get(), H5T_NATIVE_DOUBLE, &value), label_ + " cannot be read");
+  if (!std::isfinite(value)) throw Failure(label_ + " must be finite");
+  return value;
+}
+
 std::string StoredAttribute::read_string() const {
   std::string characters(expect_string(type_.get(), label_), '\0');
   check(H5Aread(attribute_.get(), type_.get(), characters.data()), label_ + " cannot be read");

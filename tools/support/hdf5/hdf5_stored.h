@@ -51,6 +51,7 @@ class StoredAttribute {
 
   // @throws Failure on another type
   std::int64_t read_integer() const;
+  double read_real() const;  // and on NaN and infinity
   std::string read_string() const;
 
  private:
