@@ -17,6 +17,10 @@ namespace {
 // With more pieces than this, the search begins at the piece found last.
 constexpr std::size_t kMany = 16;
 
+// A dead band is a share of the shorter neighbour, so that a steep short piece is not continued far beyond
+// its end, and not below a share of the largest dead band, since x may be rounded.
+constexpr double kDeadBandShare = 1e-5, kLeastDeadBand = 1e-5;
+
 double evaluate(std::span<const double> a, double s) {
   double sum = 0.0;
   for (std::size_t k = a.size(); k-- > 0;) sum = sum * s + a[k];
@@ -162,10 +166,17 @@ double PiecewisePolynomial::value_in_piece(int piece, double x) const {
   return evaluate(coefficients(i), x - origins_[i]);
 }
 
+double PiecewisePolynomial::calc_dead_band(std::size_t i, double largest) const {
+  double band = largest;
+  if (i > 0) band = std::min(band, kDeadBandShare * (breaks_[i] - breaks_[i - 1]));
+  if (i + 1 < breaks_.size()) band = std::min(band, kDeadBandShare * (breaks_[i + 1] - breaks_[i]));
+  return std::max(band, kLeastDeadBand * largest);
+}
+
 int PiecewisePolynomial::choose_piece(int piece, double x, double dead_band) const {
   const auto i = static_cast<std::size_t>(piece);
-  const bool above_lower_end = i == 0 || x >= breaks_[i - 1] - 0.5 * dead_band;
-  const bool below_upper_end = i == breaks_.size() || x <= breaks_[i] + 0.5 * dead_band;
+  const bool above_lower_end = i == 0 || x >= breaks_[i - 1] - 0.5 * calc_dead_band(i - 1, dead_band);
+  const bool below_upper_end = i == breaks_.size() || x <= breaks_[i] + 0.5 * calc_dead_band(i, dead_band);
   return above_lower_end && below_upper_end ? piece : static_cast<int>(find_piece(x));
 }
 
@@ -173,8 +184,8 @@ void PiecewisePolynomial::calc_piece_switches(int piece, double x, double dead_b
                                               std::span<double> values) const {
   if (breaks_.empty()) return;
   const auto i = static_cast<std::size_t>(piece);
-  values[0] = i == 0 ? 1.0 : x - breaks_[i - 1] + dead_band;
-  values[1] = i == breaks_.size() ? 1.0 : breaks_[i] - x + dead_band;
+  values[0] = i == 0 ? 1.0 : x - breaks_[i - 1] + calc_dead_band(i - 1, dead_band);
+  values[1] = i == breaks_.size() ? 1.0 : breaks_[i] - x + calc_dead_band(i, dead_band);
 }
 
 double PiecewisePolynomial::slope_in_piece(int piece, double x) const {

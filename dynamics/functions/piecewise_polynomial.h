@@ -57,6 +57,7 @@ class PiecewisePolynomial {
   double slope_in_piece(int piece, double x) const;
   /// The piece to use at x, from 0. It is the piece in use until x is half a dead band beyond its ends, so
   /// that small changes of x at a break do not change the piece each time. @param piece  in use
+  /// @param dead_band  the largest; at a break next to a short piece it is 1e-5 of this piece
   int choose_piece(int piece, double x, double dead_band) const;
   /// 2, for the two ends of the piece in use; 0 for a function of one piece.
   int num_switches() const { return breaks_.empty() ? 0 : 2; }
@@ -66,6 +67,7 @@ class PiecewisePolynomial {
 
  private:
   std::size_t find_piece(double x) const;
+  double calc_dead_band(std::size_t i, double largest) const;  // at break i
   void add_piece(double origin, std::span<const double> coefficients);
   void clear();  // leaves no piece
   void rebuild_integrals();

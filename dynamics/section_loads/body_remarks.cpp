@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tools/support/errors/numerical_error.h"
+
 namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kTooMuchMissing = 0.05;    // of the largest bending moment or deflection
-constexpr double kTooMuchAbove = 0.05;      // the band, of the r.m.s. acceleration of a point
-constexpr double kLargeDeflection = 0.1;    // over the length of the body
-constexpr double kLargeAxialEffect = 0.03;  // work of axial forces in bending over that of the stiffness
+constexpr double kTooMuchMissing = 0.05;       // of the largest bending moment or deflection
+constexpr double kTooMuchAbove = 0.05;         // the band, of the r.m.s. acceleration of a point
+constexpr double kLargeDeflection = 0.1;       // over the length of the body
+constexpr double kUnboundedDeflection = 10.0;  // likewise
+constexpr double kLargeAxialEffect = 0.03;     // work of axial forces in bending over that of the stiffness
 
 // What a body can have besides its modes.
 std::string advise_on_basis(const BodySections& body) {
@@ -82,6 +85,21 @@ std::vector<BodyRemark> list_missed_by_bases(const std::vector<CertifiedError>& 
                    body.name(), of_point)});
   }
   return remarks;
+}
+
+void check_bending(const std::vector<BodyBending>& bodies) {
+  for (const BodyBending& body : bodies) {
+    if (!(body.deflection_share() > kUnboundedDeflection)) continue;
+    std::string text = fmt::format(
+        "{} deflects by {:.3g} times its length at t = {:.6g} s: linear bending does not hold there, and the "
+        "motion seems to grow without bounds",
+        body.name(), body.deflection_share(), body.deflection_time());
+    if (body.axial_effect() > kLargeAxialEffect) {
+      text += fmt::format("; axial forces, which are left out, change the bending: set stiffening.{} = true",
+                          body.name());
+    }
+    throw support::NumericalError(text);
+  }
 }
 
 std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies) {

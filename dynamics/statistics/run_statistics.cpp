@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "dynamics/section_loads/body_remarks.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -104,6 +106,7 @@ void RunStatistics::add(const Snapshot& snapshot) {
   largest_imbalance_ = std::max(largest_imbalance_, std::abs(imbalance));
 
   add_to_bending(sections_.sections(), snapshot.time, snapshot.q, bending_);
+  check_bending(bending_);
   add_to_certified(snapshot);
 
   const bool is_stored = num_outputs_++ % window_.stored_every == 0;

@@ -3,6 +3,9 @@
 
 import unittest
 
+import numpy as np
+from scipy.integrate import solve_ivp
+
 from verification_case import VerificationCase
 
 
@@ -72,6 +75,24 @@ damper.table = [[-1.0, -10.0], [-1e-3, -10.0], [-1e-4, -20.0], [0.0, 0.0], [1e-4
                 self.assertGreater(results.summary["switches"], 20)
                 self.assert_close(results["bodies/block/position"][:, 0], expected,
                                   absolute=max(0.01 * tolerance, 5e-8))  # that of BDF  # fmt: skip
+
+    def test_steep_friction_is_not_exceeded(self):
+        """By a dead band of 1e-6 m/s the friction rose to 22 N where its peak of 20 N is at 1e-5 m/s, and the first
+        slip was 9 % longer. Expected: scipy's integration of the same law."""
+        for peak in (1e-4, 1e-5, 2e-6):
+            rates, forces = [-1e-3, -peak, 0.0, peak, 1e-3], [-10.0, -20.0, 0.0, 20.0, 10.0]
+
+            def rates_of_change(_, y, rates=rates, forces=forces):
+                return [y[1], -1000.0 * y[0] + np.interp(0.1 - y[1], rates, forces)]
+
+            reference = solve_ivp(rates_of_change, (0.0, 0.25), [0.0, 0.1], method="Radau", rtol=1e-9, atol=1e-12,
+                                  t_eval=np.linspace(0.0, 0.25, 2501))
+            vehicle = self.VEHICLE.replace("-1e-4, -20", f"-{peak}, -20").replace("1e-4, 20", f"{peak}, 20")
+            run = 'start = "as-given"\nduration = 0.25\noutput_step = 1e-4\n[initial.block]\nvelocity = [0.1, 0.0]\n'
+            with self.subTest(peak=peak):
+                results = self.run_text(vehicle, run)
+                self.assert_close(np.max(results["bodies/block/position"][:, 0]), np.max(reference.y[0]), relative=2e-4)
+                self.assertLess(np.max(np.abs(results["forces/friction/force"])), 20.001)
 
 
 if __name__ == "__main__":

@@ -241,6 +241,16 @@ class SpinUp(VerificationCase):
         self.assertGreater(np.max(np.abs(results["points/beam.tip/deflection"][:, 1])), 8.0)
         self.assertRegex(" ".join(text.decode() for text in results["warnings/text"]), r"beam: .*set stiffening")
 
+    def test_a_motion_without_bounds_ends_with_its_reason(self):
+        # It took 36 million steps up to 12.4 s, where the tip was 1e8 m away.
+        for method in ("exponential", "adams"):
+            self.write_model(self.vehicle(), SPIN_UP_RUN.format(stiffening="false") + f'method = "{method}"\n')
+            command = [os.environ["SPRUNG_DYNAMICS"], "run", "run.toml", "--superelements", SUPERELEMENTS]
+            process = run_program(command, cwd=self.folder)
+            self.assertEqual(process.returncode, 3, process.stderr)
+            self.assertRegex(process.stderr, r"beam deflects by 1\d\.?\d* times its length at t = (8|9)\.")
+            self.assertIn("set stiffening.beam = true", process.stderr)
+
 
 class SoftPart(VerificationCase):
     """A beam on springs with a rod on its middle, at whose tip the body frame sits."""
