@@ -204,10 +204,9 @@ void AirSpring::calc_state_rates(const Instant& instant, std::span<const int> br
 }
 
 // Each passage has the linear flow of (forces, eq. 30).
-std::optional<StateLinearisation> AirSpring::linearise_states(const Instant& at_rest,
-                                                              std::span<const int> branches,
-                                                              std::span<const double> rms) const {
-  if (passages_.empty()) return std::nullopt;
+RandomLaws AirSpring::linearise_for_random_motion(const Instant& at_rest, std::span<const int> branches,
+                                                  std::span<const double> rms) const {
+  if (passages_.empty()) return {};
   const Gas gas = calc_gas(at_rest, branches);
   const auto n = static_cast<Eigen::Index>(state_factors_.size());
   // Rates of the logarithms of densities by the logarithms of the ratios to the first.
@@ -235,7 +234,7 @@ std::optional<StateLinearisation> AirSpring::linearise_states(const Instant& at_
     }
   }
   if (parameters_.levelling) law.decay(n - 1, n - 1) = 1.0 / parameters_.levelling->delay;
-  return law;
+  return {.states = std::move(law)};
 }
 
 void AirSpring::choose_branches(const Instant& instant, std::span<int> branches) const {

@@ -54,8 +54,8 @@ class AirSpring final : public ForceElement {
   std::vector<InternalState> internal_states() const override;
   void calc_state_rates(const Instant& instant, std::span<const int> branches,
                         std::span<double> rates) const override;
-  std::optional<StateLinearisation> linearise_states(const Instant& at_rest, std::span<const int> branches,
-                                                     std::span<const double> rms) const override;
+  RandomLaws linearise_for_random_motion(const Instant& at_rest, std::span<const int> branches,
+                                         std::span<const double> rms) const override;
 
   int num_branches() const override { return parameters_.levelling ? 1 : 0; }
   void choose_branches(const Instant& instant, std::span<int> branches) const override;

@@ -1,7 +1,10 @@
 #include "dynamics/forces/bushing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+
+#include "dynamics/functions/mean_slope.h"
 
 namespace sprung::dynamics {
 
@@ -10,6 +13,8 @@ namespace {
 // How far a piece is used beyond its end, as for springs and dampers.
 constexpr double kBushingDeadBand = 1e-9;      // m or rad
 constexpr double kBushingRateDeadBand = 1e-6;  // m/s or rad/s
+// R.m.s. rate that the linearisation for random motion begins with.
+constexpr double kUsualBushingRate = 0.1;  // m/s or rad/s
 constexpr std::array<const char*, 3> kDirectionNames{"x", "y", "rotation"};
 
 }  // namespace
@@ -63,6 +68,19 @@ void Bushing::calc_state_rates(const Instant& instant, std::span<const int> /*br
   }
 }
 
+RandomLaws Bushing::linearise_for_random_motion(const Instant& /*at_rest*/, std::span<const int> /*branches*/,
+                                                std::span<const double> rms) const {
+  const auto is_linear = [](const Direction& direction) { return has_one_slope(direction.damper); };
+  if (std::all_of(parameters_.directions.begin(), parameters_.directions.end(), is_linear)) return {};
+  RandomLaws laws;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double rate = rms.empty() ? kUsualBushingRate : rms[3 + k];
+    laws.rate_slopes.push_back(parameters_.multiplicity *
+                               calc_mean_slope(parameters_.directions[k].damper, rate));
+  }
+  return laws;
+}
+
 Bushing::Relative Bushing::calc_relative(const Instant& instant) const {
   const MarkerState& a = instant.markers[static_cast<std::size_t>(parameters_.marker_a)];
   const MarkerState& b = instant.markers[static_cast<std::size_t>(parameters_.marker_b)];
@@ -90,8 +108,10 @@ Power Bushing::add_wrenches(const Instant& instant, std::span<const int> branche
     const Direction& direction = parameters_.directions[k];
     const double spring =
         parameters_.multiplicity * direction.spring.value_in_piece(branches[2 * k], relative.u[i]);
-    const double damper =
-        parameters_.multiplicity * direction.damper.value_in_piece(branches[2 * k + 1], relative.rate[i]);
+    const double damper = instant.rate_slopes.empty()
+                              ? parameters_.multiplicity *
+                                    direction.damper.value_in_piece(branches[2 * k + 1], relative.rate[i])
+                              : instant.rate_slopes[k] * relative.rate[i];
     on_b[i] = -(spring + damper);
     power.dissipated += damper * relative.rate[i];
   }
@@ -191,7 +211,10 @@ void Bushing::calc_channels(const Instant& instant, std::span<const int> /*branc
     const Direction& direction = parameters_.directions[k];
     values[k] = u;
     values[3 + k] = rate;
-    values[6 + k] = -parameters_.multiplicity * (direction.spring.value(u) + direction.damper.value(rate));
+    const double damper = instant.rate_slopes.empty()
+                              ? parameters_.multiplicity * direction.damper.value(rate)
+                              : instant.rate_slopes[k] * rate;
+    values[6 + k] = -parameters_.multiplicity * direction.spring.value(u) - damper;
   }
   for (std::size_t i = 0; i < relaxing_.size(); ++i)
     values[6 + relaxing_[i]] -= calc_state_factor(relaxing_[i]) * instant.states[i];

@@ -46,6 +46,9 @@ class Bushing final : public ForceElement {
   void calc_state_rates(const Instant& instant, std::span<const int> branches,
                         std::span<double> rates) const override;
 
+  RandomLaws linearise_for_random_motion(const Instant& at_rest, std::span<const int> branches,
+                                         std::span<const double> rms) const override;
+
   int num_branches() const override { return 6; }
   void choose_branches(const Instant& instant, std::span<int> branches) const override;
   int num_switches() const override { return num_switches_; }

@@ -26,6 +26,9 @@ struct Instant {
   double time = 0.0;                     ///< [s]
   std::span<const MarkerState> markers;  ///< all markers of the model
   std::span<const double> states = {};   ///< internal states of the element that is asked [J^0.5]
+  /// Slopes of linear laws in the place of those of its damper forces over their rates, one for each channel
+  /// of a rate; empty: its own laws. @see ForceElement::linearise_for_random_motion
+  std::span<const double> rate_slopes = {};
 };
 
 /// A quantity of a force element that changes at a rate of its own, ż = g: a history of its motion (system,
@@ -43,6 +46,15 @@ struct InternalState {
 struct StateLinearisation {
   Eigen::VectorXd gain;   ///< n, one factor for each state
   Eigen::MatrixXd decay;  ///< n×n [1/s]
+};
+
+/// Linear laws in the place of those of an element that are far from linear; empty where there are none.
+struct RandomLaws {
+  std::optional<StateLinearisation> states = {};
+  /// Of damper forces over their rates: one for each channel of a rate, or none [N·s/m or N·m·s/rad].
+  std::vector<double> rate_slopes = {};
+
+  bool is_empty() const { return !states && rate_slopes.empty(); }
 };
 
 /// Power by which a force element reduces (dissipated) or increases (input) the mechanical energy [W].
@@ -116,14 +128,14 @@ class ForceElement {
   virtual void calc_state_rates(const Instant& /*instant*/, std::span<const int> /*branches*/,
                                 std::span<double> /*rates*/) const {}
 
-  /// The law of its states for random motion about rest, where their own law is far from linear near rest, as
-  /// that of friction; none where it is not.
+  /// Its laws for random motion about rest: of its states, where their own law is far from linear near rest,
+  /// as that of friction, and of its dampers, where one has more than one slope.
   /// @param rms  root mean square of each channel, 0 of contact and road height; empty: of a motion that is
   ///             usual for such an element
-  virtual std::optional<StateLinearisation> linearise_states(const Instant& /*at_rest*/,
-                                                             std::span<const int> /*branches*/,
-                                                             std::span<const double> /*rms*/) const {
-    return std::nullopt;
+  virtual RandomLaws linearise_for_random_motion(const Instant& /*at_rest*/,
+                                                 std::span<const int> /*branches*/,
+                                                 std::span<const double> /*rms*/) const {
+    return {};
   }
 
   virtual int num_branches() const { return 0; }

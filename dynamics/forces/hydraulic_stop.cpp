@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dynamics/forces/marker_line.h"
 
@@ -15,11 +16,13 @@ constexpr double kOverlapRateDeadBand = 1e-6;  // m/s
 constexpr double kForceDeadBandShare = 1e-6;   // of the force at this overlap and rate:
 constexpr double kUsualOverlapShare = 0.01;    // of the contact length
 constexpr double kUsualRate = 1.0;             // m/s
+constexpr double kUsualRandomRate = 0.1;       // m/s, r.m.s., that the linearisation begins with
 
 }  // namespace
 
 struct HydraulicStop::Line : MarkerLine {
   double overlap;  // δ; its rate is that of the line
+  std::span<const double> rate_slopes;
 };
 
 struct HydraulicStop::Law {
@@ -39,7 +42,7 @@ HydraulicStop::HydraulicStop(std::string element_name, Parameters parameters)
 HydraulicStop::Line HydraulicStop::calc_line(const Instant& instant) const {
   const MarkerLine line = calc_marker_line(instant.markers[static_cast<std::size_t>(parameters_.marker_a)],
                                            instant.markers[static_cast<std::size_t>(parameters_.marker_b)]);
-  return {line, parameters_.contact_length - line.length};
+  return {line, parameters_.contact_length - line.length, instant.rate_slopes};
 }
 
 HydraulicStop::Law HydraulicStop::calc_law(const Line& line, std::span<const int> branches) const {
@@ -47,10 +50,23 @@ HydraulicStop::Law HydraulicStop::calc_law(const Line& line, std::span<const int
   Law law;
   law.elastic = parameters_.spring.value_in_piece(branches[1], line.overlap);
   law.sum = law.elastic + parameters_.damping * line.overlap * line.rate;
-  if (branches[3] == kThroughOrifice)
+  if (!line.rate_slopes.empty())
+    law.sum = law.elastic + line.rate_slopes[0] * line.rate;
+  else if (branches[3] == kThroughOrifice)
     law.sum += parameters_.metering.value_in_piece(branches[2], line.overlap) * line.rate * line.rate;
   law.force = branches[0] == kPushing ? law.sum : 0.0;
   return law;
+}
+
+// E[c_h v³; v > 0]/σ² = √(2/π) c_h σ for a normal v.
+RandomLaws HydraulicStop::linearise_for_random_motion(const Instant& at_rest, std::span<const int> branches,
+                                                      std::span<const double> rms) const {
+  if (branches[0] == kApart || parameters_.metering.is_zero()) return {};
+  const Line line = calc_line(at_rest);
+  const double rate = rms.empty() ? kUsualRandomRate : rms[2];
+  const double resistance = parameters_.metering.value_in_piece(branches[2], line.overlap);
+  return {.rate_slopes = {parameters_.damping * line.overlap +
+                          std::sqrt(2.0 / std::numbers::pi) * resistance * rate}};
 }
 
 Power HydraulicStop::add_wrenches(const Instant& instant, std::span<const int> branches,

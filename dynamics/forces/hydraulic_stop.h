@@ -34,6 +34,9 @@ class HydraulicStop final : public ForceElement {
                      std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
 
+  RandomLaws linearise_for_random_motion(const Instant& at_rest, std::span<const int> branches,
+                                         std::span<const double> rms) const override;
+
   int num_branches() const override { return 4; }
   void choose_branches(const Instant& instant, std::span<int> branches) const override;
   int num_switches() const override {

@@ -86,14 +86,14 @@ void LeafSpring::calc_state_rates(const Instant& instant, std::span<const int> b
   rates[0] = (full_state_ * line.rate - speed * instant.states[0]) / parameters_.presliding_deflection;
 }
 
-std::optional<StateLinearisation> LeafSpring::linearise_states(const Instant& /*at_rest*/,
-                                                               std::span<const int> /*branches*/,
-                                                               std::span<const double> rms) const {
+RandomLaws LeafSpring::linearise_for_random_motion(const Instant& /*at_rest*/,
+                                                   std::span<const int> /*branches*/,
+                                                   std::span<const double> rms) const {
   const double deflection = rms.empty() ? kLeafDeflection : std::max(rms[1], kLeastLeafRms);
   const double rate = rms.empty() ? kLeafRate : std::max(rms[2], kLeastLeafRms);
   const LinearFriction law = linearise_friction(deflection, rate, parameters_.presliding_deflection);
-  return StateLinearisation{.gain = Eigen::VectorXd::Constant(1, law.gain),
-                            .decay = Eigen::MatrixXd::Constant(1, 1, law.decay)};
+  return {.states = StateLinearisation{.gain = Eigen::VectorXd::Constant(1, law.gain),
+                                       .decay = Eigen::MatrixXd::Constant(1, 1, law.decay)}};
 }
 
 void LeafSpring::choose_branches(const Instant& instant, std::span<int> branches) const {

@@ -15,8 +15,7 @@ Power RotationalSpringDamper::add_wrenches(const Instant& instant, std::span<con
   const Deflection d = calc_deflection(instant);
   const double spring_torque =
       parameters_.multiplicity * parameters_.spring.value_in_piece(branches[0], d.value);
-  const double damper_torque =
-      parameters_.multiplicity * parameters_.damper.value_in_piece(branches[1], d.rate);
+  const double damper_torque = calc_damper_force(instant, branches[1], d.rate);
   wrenches[static_cast<std::size_t>(parameters_.marker_b)].torque += spring_torque + damper_torque;
   wrenches[static_cast<std::size_t>(parameters_.marker_a)].torque -= spring_torque + damper_torque;
   return {.dissipated = damper_torque * d.rate};
@@ -49,7 +48,7 @@ void RotationalSpringDamper::calc_channels(const Instant& instant, std::span<con
   values[1] = d.value;
   values[2] = d.rate;
   values[3] =
-      parameters_.multiplicity * (parameters_.spring.value(d.value) + parameters_.damper.value(d.rate));
+      parameters_.multiplicity * parameters_.spring.value(d.value) + calc_damper_force(instant, d.rate);
 }
 
 }  // namespace sprung::dynamics

@@ -37,6 +37,7 @@ class RotationalSpringDamper final : public SpringAndDamper {
   Deflection calc_deflection(const Instant& instant) const override;
   const PiecewisePolynomial& spring() const override { return parameters_.spring; }
   const PiecewisePolynomial& damper() const override { return parameters_.damper; }
+  double multiplicity() const override { return parameters_.multiplicity; }
   Parameters parameters_;
 };
 

@@ -14,6 +14,9 @@ class SpringAndDamper : public ForceElement {
  public:
   using ForceElement::ForceElement;
 
+  RandomLaws linearise_for_random_motion(const Instant& at_rest, std::span<const int> branches,
+                                         std::span<const double> rms) const final;
+
   int num_branches() const final { return 2; }
   void choose_branches(const Instant& instant, std::span<int> branches) const final;
   int num_switches() const final { return spring().num_switches() + damper().num_switches(); }
@@ -45,6 +48,11 @@ class SpringAndDamper : public ForceElement {
   virtual Deflection calc_deflection(const Instant& instant) const = 0;
   virtual const PiecewisePolynomial& spring() const = 0;
   virtual const PiecewisePolynomial& damper() const = 0;
+  virtual double multiplicity() const = 0;
+  /// Of the dampers side by side. @param branch  of the damper
+  double calc_damper_force(const Instant& instant, int branch, double rate) const;
+  /// The same, where it is not known which piece is in use.
+  double calc_damper_force(const Instant& instant, double rate) const;
 };
 
 }  // namespace sprung::dynamics

@@ -21,8 +21,7 @@ Power SpringDamper::add_wrenches(const Instant& instant, std::span<const int> br
   const Line line = calc_line(instant);
   const double spring_force =
       parameters_.multiplicity * parameters_.spring.value_in_piece(branches[0], line.deflection);
-  const double damper_force =
-      parameters_.multiplicity * parameters_.damper.value_in_piece(branches[1], line.rate);
+  const double damper_force = calc_damper_force(instant, branches[1], line.rate);
   const Eigen::Vector2d on_b = (spring_force + damper_force) * line.direction;
   wrenches[static_cast<std::size_t>(parameters_.marker_b)].force += on_b;
   wrenches[static_cast<std::size_t>(parameters_.marker_a)].force -= on_b;
@@ -60,8 +59,8 @@ void SpringDamper::calc_channels(const Instant& instant, std::span<const int> /*
   values[0] = line.length;
   values[1] = line.deflection;
   values[2] = line.rate;
-  values[3] = parameters_.multiplicity *
-              (parameters_.spring.value(line.deflection) + parameters_.damper.value(line.rate));
+  values[3] = parameters_.multiplicity * parameters_.spring.value(line.deflection) +
+              calc_damper_force(instant, line.rate);
 }
 
 }  // namespace sprung::dynamics

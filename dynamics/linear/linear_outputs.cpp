@@ -105,6 +105,7 @@ Eigen::MatrixXd divide_by_mass(const SystemTerms& terms, Eigen::MatrixXd A) {
 void differentiate(const LinearVehicle& vehicle, const StateFunction& function, Eigen::MatrixXd& by_position,
                    Eigen::MatrixXd& by_velocity) {
   PartitionedEquations equations(vehicle.model());
+  equations.set_rate_slopes(list_rate_slopes(vehicle.random_laws()));
   equations.choose_partition_at(0.0, vehicle.positions());  // as the linearisation did
   const Eigen::VectorXd q_i = vehicle.independent_positions();
   calc_static_force(equations, 0.0, q_i);

@@ -4,15 +4,12 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace sprung::dynamics {
 
 LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
-    : q_(q),
-      equations_(model),
-      system_(linearise(equations_, 0.0, q)),
-      damping_at_rest_(system_.damping),
-      solver_(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding) {
+    : q_(q), equations_(model), system_(linearise(equations_, 0.0, q)) {
   const Eigen::VectorXd q_i = independent_positions();
   kinks_ = find_kinks(equations_, 0.0, q_i);
   calc_static_force(equations_, 0.0, q_i);
@@ -33,13 +30,33 @@ LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
   }
 }
 
+std::vector<std::vector<double>> list_rate_slopes(const std::vector<RandomLaws>& laws) {
+  std::vector<std::vector<double>> slopes;
+  for (const RandomLaws& law : laws) slopes.push_back(law.rate_slopes);
+  return slopes;
+}
+
 // States are the last independent coordinates.
-void LinearVehicle::set_state_law(std::size_t force, const StateLinearisation& law) {
-  const Eigen::Index n = law.gain.size();
-  const Eigen::Index first = system_.mass.rows() - model().num_states() + model().force_states[force];
-  system_.damping.middleRows(first, n) = law.gain.asDiagonal() * damping_at_rest_.middleRows(first, n);
-  system_.damping.block(first, first, n, n) = law.decay;
-  solver_ = FrequencySolver(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding);
+void LinearVehicle::set_random_laws(std::vector<RandomLaws> laws) {
+  laws_ = std::move(laws);
+  equations_.set_rate_slopes(list_rate_slopes(laws_));
+  system_.damping = calc_reduced_damping(equations_);
+  calc_static_force(equations_, 0.0, independent_positions());
+  equations_.update_all_markers();
+  const Eigen::Index first_state = system_.mass.rows() - model().num_states();
+  for (std::size_t f = 0; f < laws_.size(); ++f) {
+    if (!laws_[f].states) continue;
+    const StateLinearisation& law = *laws_[f].states;
+    const Eigen::Index n = law.gain.size(), first = first_state + model().force_states[f];
+    system_.damping.middleRows(first, n) = law.gain.asDiagonal() * system_.damping.middleRows(first, n);
+    system_.damping.block(first, first, n, n) = law.decay;
+  }
+  solver_.reset();
+}
+
+const FrequencySolver& LinearVehicle::solver() const {
+  if (!solver_) solver_.emplace(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding);
+  return *solver_;
 }
 
 Eigen::VectorXd LinearVehicle::independent_positions() const {
@@ -87,7 +104,7 @@ void LinearVehicle::calc_road_wrenches(std::size_t input, const RoadWave& wave,
 }
 
 Eigen::MatrixXcd LinearVehicle::calc_motion(double omega, const RoadAction& action) const {
-  return solver_.solve(omega, system_.directions.transpose() * action.forces);
+  return solver().solve(omega, system_.directions.transpose() * action.forces);
 }
 
 Eigen::VectorXcd LinearVehicle::calc_delays(const RoadWave& wave) const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,12 +40,14 @@ class LinearVehicle {
   /// @throws support::NumericalError if it cannot be linearised there
   LinearVehicle(const Model& model, const Eigen::VectorXd& q);
 
-  /// Gives the states of a force element another linear law.
-  void set_state_law(std::size_t force, const StateLinearisation& law);
+  /// Gives force elements linear laws in the place of theirs near rest.
+  /// @param laws  one entry for each force element; an empty one leaves the element as it is near rest
+  void set_random_laws(std::vector<RandomLaws> laws);
+  const std::vector<RandomLaws>& random_laws() const { return laws_; }  ///< empty: none were given
 
   const Model& model() const { return equations_.terms().model(); }
   const LinearisedSystem& system() const { return system_; }
-  const FrequencySolver& solver() const { return solver_; }
+  const FrequencySolver& solver() const;  ///< made at the first call
   const std::vector<RoadInput>& inputs() const { return inputs_; }
   /// Kinks of force elements at the equilibrium, where the law has two slopes.
   const std::vector<Kink>& kinks() const { return kinks_; }
@@ -77,12 +80,15 @@ class LinearVehicle {
   Eigen::VectorXd q_;
   PartitionedEquations equations_;
   LinearisedSystem system_;
-  Eigen::MatrixXd damping_at_rest_;  // f×f, before states were given other laws
-  FrequencySolver solver_;
+  std::vector<RandomLaws> laws_;
+  mutable std::optional<FrequencySolver> solver_;
   std::vector<RoadInput> inputs_;
   std::vector<Kink> kinks_;
   std::vector<int> branches_, channel_rows_;
 };
+
+/// Slopes of the laws of dampers among some laws, as PartitionedEquations takes them.
+std::vector<std::vector<double>> list_rate_slopes(const std::vector<RandomLaws>& laws);
 
 /// Derivative of a marker's motion (δx, δy, δangle), world axes, with respect to the coordinates: 3×nq.
 /// @param terms  evaluated so that the marker's position is up to date

@@ -128,6 +128,15 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
 
 }  // namespace
 
+Eigen::MatrixXd calc_reduced_damping(PartitionedEquations& equations, const SteadyMotion& motion) {
+  return -differentiate_by_velocity(
+      equations,
+      [&](const PartitionedEquations& at, auto) {
+        return calc_relative_force(at, at.terms().forces(), motion);
+      },
+      motion, needed_by(motion));
+}
+
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
                            const SteadyMotion& motion, Eigen::MatrixXd* spread) {
   equations.choose_partition_at(time, q);
@@ -144,12 +153,7 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
   system.directions = equations.calc_directions();
   system.mass = equations.calc_reduced_mass(system.directions);
 
-  system.damping = -differentiate_by_velocity(
-      equations,
-      [&](const PartitionedEquations& at, auto) {
-        return calc_relative_force(at, at.terms().forces(), motion);
-      },
-      motion, needed_by(motion));
+  system.damping = calc_reduced_damping(equations, motion);
   calc_static_force(equations, time, q_i, nullptr, motion);
   add_stiffness(equations, time, q_i, motion, system, spread);
   calc_static_force(equations, time, q_i, nullptr, motion);

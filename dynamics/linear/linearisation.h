@@ -31,6 +31,10 @@ struct LinearisedSystem {
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
                            const SteadyMotion& motion = {}, Eigen::MatrixXd* spread = nullptr);
 
+/// The damping Ĉ alone, at the positions that the equations were last evaluated at: f×f. They are left at
+/// other velocities.
+Eigen::MatrixXd calc_reduced_damping(PartitionedEquations& equations, const SteadyMotion& motion = {});
+
 /// Reduced force DᵀQ at rest. With steady motion, M̂ ρ̈_i of a system at rest relative to it.
 /// @param q_independent   f
 /// @param[out] potential  potential energy [J], less the kinetic energy of the steady motion; may be null

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <span>
 
 #include "tools/support/errors/numerical_error.h"
@@ -14,14 +13,32 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr int kMaxIterations = 200;
-constexpr double kSettled = 1e-6;    // relative change of the root mean squares
-constexpr double kLeastRms = 1e-12;  // below it, a root mean square counts as none
+constexpr double kSettled = 1e-6;    // relative change of the laws
+constexpr double kLeastRms = 1e-12;  // below it, a root mean square counts as this
 
-std::optional<StateLinearisation> linearise_states(const LinearVehicle& vehicle, std::size_t force,
-                                                   std::span<const double> rms) {
-  return vehicle.model().forces[force]->linearise_states(
+RandomLaws linearise(const LinearVehicle& vehicle, std::size_t force, std::span<const double> rms) {
+  return vehicle.model().forces[force]->linearise_for_random_motion(
       vehicle.equations().terms().instant_of(force), vehicle.model().branches_of(force, vehicle.branches()),
       rms);
+}
+
+// Largest change of an entry, of the largest entry.
+template <typename Values>
+double calc_change(const Values& old_values, const Values& new_values) {
+  if (new_values.size() == 0) return 0.0;
+  const double largest = new_values.cwiseAbs().maxCoeff();
+  return largest == 0.0 ? 0.0 : (new_values - old_values).cwiseAbs().maxCoeff() / largest;
+}
+
+double calc_change(const RandomLaws& old_laws, const RandomLaws& new_laws) {
+  const auto slopes_of = [](const RandomLaws& laws) {
+    return Eigen::Map<const Eigen::VectorXd>(laws.rate_slopes.data(),
+                                             static_cast<Eigen::Index>(laws.rate_slopes.size()));
+  };
+  double change = calc_change(Eigen::VectorXd(slopes_of(old_laws)), Eigen::VectorXd(slopes_of(new_laws)));
+  if (!new_laws.states) return change;
+  change = std::max(change, calc_change(old_laws.states->gain, new_laws.states->gain));
+  return std::max(change, calc_change(old_laws.states->decay, new_laws.states->decay));
 }
 
 // An element, and the root mean squares of its channels.
@@ -29,47 +46,36 @@ struct MovingElement {
   std::size_t force = 0;
   std::vector<double> rms = {};
 
-  double deflection(const Model& model) const {
-    const std::span<const Channel> channels = model.forces[force]->channels();
-    const auto found = std::find_if(channels.begin(), channels.end(), [](const Channel& channel) {
-      return channel.role == ChannelRole::kDeflection;
-    });
-    return found == channels.end() ? 0.0 : rms[static_cast<std::size_t>(found - channels.begin())];
-  }
-
   // Goes half of the way to other values, in the logarithm: friction that damps less lets the motion grow,
-  // and so damps more. @return the largest relative change that was left
-  double approach(const Eigen::VectorXd& found) {
+  // and so damps more.
+  void approach(const Eigen::VectorXd& found) {
     const bool is_first = rms.empty();
     if (is_first) rms.resize(static_cast<std::size_t>(found.size()));
-    double change = is_first ? 1.0 : 0.0;
     for (Eigen::Index i = 0; i < found.size(); ++i) {
       double& one = rms[static_cast<std::size_t>(i)];
       const double next = std::max(found[i], kLeastRms);
-      if (!is_first) change = std::max(change, std::abs(std::log(next / one)));
       one = is_first ? next : std::sqrt(one * next);
     }
-    return change;
+  }
+
+  RandomLinearisation describe(const Model& model, const RandomLaws& laws) const {
+    const ForceElement& element = *model.forces[force];
+    RandomLinearisation found{.element = element.name, .has_states = laws.states.has_value()};
+    const std::span<const Channel> channels = element.channels();
+    for (std::size_t c = channels.size(); c-- > 0;)
+      if (channels[c].role == ChannelRole::kDeflection) found.rms_deflection = rms[c];
+    if (laws.rate_slopes.empty()) return found;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      if (channels[c].role != ChannelRole::kRate) continue;
+      found.rms_rates.push_back(rms[c]);
+      found.rate_units.push_back(channels[c].unit);
+    }
+    return found;
   }
 };
 
-}  // namespace
-
-bool needs_random_linearisation(const LinearVehicle& vehicle, std::size_t force) {
-  return linearise_states(vehicle, force, {}).has_value();
-}
-
-std::vector<RandomLinearisation> linearise_for_random_motion(LinearVehicle& vehicle, const RoadSpectrum& road,
-                                                             double speed, const FrequencyRange& range) {
-  const Model& model = vehicle.model();
-  std::vector<MovingElement> elements;
-  for (std::size_t f = 0; f < model.forces.size(); ++f) {
-    const std::optional<StateLinearisation> law = linearise_states(vehicle, f, {});
-    if (!law) continue;
-    vehicle.set_state_law(f, *law);
-    elements.push_back({.force = f});
-  }
-  if (elements.empty()) return {};
+// The channels of some elements.
+LinearOutputs make_motion_outputs(const LinearVehicle& vehicle, const std::vector<MovingElement>& elements) {
   const LinearOutputs all = make_force_outputs(vehicle);
   std::vector<int> rows;
   for (const MovingElement& one : elements) {
@@ -77,7 +83,28 @@ std::vector<RandomLinearisation> linearise_for_random_motion(LinearVehicle& vehi
       if (all.subjects[static_cast<std::size_t>(i)].object == static_cast<int>(one.force)) rows.push_back(i);
     }
   }
-  const LinearOutputs motion = all.pick(rows);
+  return all.pick(rows);
+}
+
+}  // namespace
+
+RandomLaws find_random_laws(const LinearVehicle& vehicle, std::size_t force) {
+  return linearise(vehicle, force, {});
+}
+
+std::vector<RandomLinearisation> linearise_for_random_motion(LinearVehicle& vehicle, const RoadSpectrum& road,
+                                                             double speed, const FrequencyRange& range) {
+  const Model& model = vehicle.model();
+  std::vector<MovingElement> elements;
+  std::vector<RandomLaws> laws;
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    laws.push_back(linearise(vehicle, f, {}));
+    if (!laws.back().is_empty()) elements.push_back({.force = f});
+  }
+  if (elements.empty()) return {};
+  vehicle.set_random_laws(laws);
+  // Motion and states do not depend on the laws of forces, so these outputs serve all laws.
+  const LinearOutputs motion = make_motion_outputs(vehicle, elements);
   for (int iteration = 0;; ++iteration) {
     const Eigen::VectorXd rms = calc_root_mean_squares(vehicle, motion, road, speed, range);
     Eigen::VectorXd of_channels = Eigen::VectorXd::Zero(vehicle.channel_rows().back());
@@ -86,19 +113,22 @@ std::vector<RandomLinearisation> linearise_for_random_motion(LinearVehicle& vehi
     double change = 0.0;
     for (MovingElement& one : elements) {
       const auto count = static_cast<Eigen::Index>(model.forces[one.force]->channels().size());
-      change = std::max(change, one.approach(of_channels.segment(vehicle.channel_rows()[one.force], count)));
-      vehicle.set_state_law(one.force, *linearise_states(vehicle, one.force, one.rms));
+      one.approach(of_channels.segment(vehicle.channel_rows()[one.force], count));
+      RandomLaws next = linearise(vehicle, one.force, one.rms);
+      change = std::max(change, calc_change(laws[one.force], next));
+      laws[one.force] = std::move(next);
     }
+    vehicle.set_random_laws(laws);
     if (change <= kSettled) break;
     if (iteration == kMaxIterations) {
-      throw support::NumericalError(fmt::format(
-          "response: the linear law of the states of '{}' does not settle; run the vehicle in time",
-          model.forces[elements.front().force]->name));
+      throw support::NumericalError(
+          fmt::format("response: the linear laws of '{}' for random motion do not settle; run the vehicle in "
+                      "time",
+                      model.forces[elements.front().force]->name));
     }
   }
   std::vector<RandomLinearisation> found;
-  for (const MovingElement& one : elements)
-    found.push_back({model.forces[one.force]->name, one.deflection(model)});
+  for (const MovingElement& one : elements) found.push_back(one.describe(model, laws[one.force]));
   return found;
 }
 

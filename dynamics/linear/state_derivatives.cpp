@@ -15,6 +15,8 @@ namespace {
 // Of the differences by velocity, natural sizes per second: far above the dead bands of branches that change
 // with the sign of a rate.
 constexpr double kVelocityStep = 1e-3;
+// Jump of a channel by its two slopes over this step that counts as rounding, of its size.
+constexpr double kSameSlope = 1e-9;
 
 const Model& model_of(const PartitionedEquations& equations) {
   return equations.terms().model();
@@ -62,17 +64,45 @@ std::vector<int> set_shifted_rest(PartitionedEquations& equations, double time, 
   return set_velocities(equations, Eigen::VectorXd::Zero(q_independent.size()), motion, needed);
 }
 
-// Adds the elements whose branches differ.
-void add_changed(const Model& model, const std::vector<int>& one, const std::vector<int>& other,
-                 bool in_position, std::vector<Kink>& kinks) {
-  for (std::size_t f = 0; f < model.forces.size(); ++f) {
-    if (std::ranges::equal(model.branches_of(f, one), model.branches_of(f, other))) continue;
-    const std::string& name = model.forces[f]->name;
-    const bool is_known = std::any_of(kinks.begin(), kinks.end(), [&](const Kink& kink) {
-      return kink.element == name && kink.in_position == in_position;
-    });
-    if (!is_known) kinks.push_back({name, in_position});
+void add_kink(const ForceElement& element, bool in_position, std::vector<Kink>& kinks) {
+  const bool is_known = std::any_of(kinks.begin(), kinks.end(), [&](const Kink& kink) {
+    return kink.element == element.name && kink.in_position == in_position;
+  });
+  if (!is_known) kinks.push_back({element.name, in_position});
+}
+
+// The channels of a force element at the state evaluated last.
+Eigen::VectorXd calc_channels_of(const PartitionedEquations& equations, std::size_t force,
+                                 std::span<const int> branches) {
+  const Model& model = model_of(equations);
+  const ForceElement& element = *model.forces[force];
+  Eigen::VectorXd values(static_cast<Eigen::Index>(element.channels().size()));
+  element.calc_channels(equations.terms().instant_of(force), model.branches_of(force, branches),
+                        {values.data(), element.channels().size()});
+  return values;
+}
+
+// The channels of all force elements at both signs of a velocity, summed, and how large they are.
+struct BothWays {
+  std::vector<Eigen::VectorXd> sums, sizes;
+};
+BothWays sum_both_ways(PartitionedEquations& equations, const Eigen::VectorXd& velocity,
+                       const SteadyMotion& motion) {
+  BothWays both;
+  for (const double sign : {1.0, -1.0}) {
+    const std::vector<int> branches = set_velocities(equations, sign * velocity, motion, Needed::kForces);
+    for (std::size_t f = 0; f < model_of(equations).forces.size(); ++f) {
+      const Eigen::VectorXd values = calc_channels_of(equations, f, branches);
+      if (sign > 0.0) {
+        both.sums.push_back(values);
+        both.sizes.emplace_back(values.cwiseAbs());
+      } else {
+        both.sums[f] += values;
+        both.sizes[f] += values.cwiseAbs();
+      }
+    }
   }
+  return both;
 }
 
 }  // namespace
@@ -130,23 +160,32 @@ std::string Kink::describe() const {
 }
 
 std::vector<Kink> find_kinks(PartitionedEquations& equations, double time,
-                             const Eigen::VectorXd& q_independent) {
+                             const Eigen::VectorXd& q_independent, const SteadyMotion& motion) {
   const Eigen::Index f = q_independent.size();
   const Model& model = model_of(equations);
   std::vector<Kink> kinks;
   for (Eigen::Index k = 0; k < f; ++k) {
     const double reach = 2.0 * kPositionStep * scale_of(equations, k);
     const std::vector<int> ahead =
-        set_shifted_rest(equations, time, q_independent, k, reach, {}, Needed::kForces);
-    add_changed(model, ahead,
-                set_shifted_rest(equations, time, q_independent, k, -reach, {}, Needed::kForces), true,
-                kinks);
+        set_shifted_rest(equations, time, q_independent, k, reach, motion, Needed::kForces);
+    const std::vector<int> behind =
+        set_shifted_rest(equations, time, q_independent, k, -reach, motion, Needed::kForces);
+    for (std::size_t e = 0; e < model.forces.size(); ++e) {
+      if (!std::ranges::equal(model.branches_of(e, ahead), model.branches_of(e, behind)))
+        add_kink(*model.forces[e], true, kinks);
+    }
   }
-  if (f > 0) set_shifted_rest(equations, time, q_independent, 0, 0.0, {}, Needed::kForces);
+  if (f > 0) set_shifted_rest(equations, time, q_independent, 0, 0.0, motion, Needed::kForces);
+  const BothWays rest = sum_both_ways(equations, Eigen::VectorXd::Zero(f), motion);
   for (Eigen::Index k = 0; k < f; ++k) {
     const Eigen::VectorXd velocity = kVelocityStep * scale_of(equations, k) * Eigen::VectorXd::Unit(f, k);
-    const std::vector<int> forward = set_velocities(equations, velocity, {}, Needed::kForces);
-    add_changed(model, forward, set_velocities(equations, -velocity, {}, Needed::kForces), false, kinks);
+    const BothWays wide = sum_both_ways(equations, velocity, motion),
+                   narrow = sum_both_ways(equations, 0.5 * velocity, motion);
+    for (std::size_t e = 0; e < model.forces.size(); ++e) {
+      // Of a jump of the slope by s the sum is s h more than at rest; a square of the rate cancels.
+      const Eigen::ArrayXd jump = 4.0 * (narrow.sums[e] - rest.sums[e]) - (wide.sums[e] - rest.sums[e]);
+      if ((jump.abs() > kSameSlope * wide.sizes[e].array()).any()) add_kink(*model.forces[e], false, kinks);
+    }
   }
   return kinks;
 }

@@ -44,17 +44,18 @@ Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const
                                           const SteadyMotion& motion = {},
                                           Needed needed = Needed::kAccelerations);
 
-/// A force element whose branch changes within the differences above.
+/// A force element whose law has two slopes within the differences above.
 struct Kink {
   std::string element;      ///< its name
-  bool in_position = true;  ///< false if it changes with the sign of a velocity
+  bool in_position = true;  ///< false if a damper's slope changes with the sign of a velocity
 
   /// Of one in position, for the user.
   std::string describe() const;
 };
 /// The kinks about rest at given positions: each element at most once in position and once in velocity,
-/// positions first.
+/// positions first. In velocity the slopes of its channels have to differ.
+/// @param motion  rest means rest relative to this motion
 std::vector<Kink> find_kinks(PartitionedEquations& equations, double time,
-                             const Eigen::VectorXd& q_independent);
+                             const Eigen::VectorXd& q_independent, const SteadyMotion& motion = {});
 
 }  // namespace sprung::dynamics

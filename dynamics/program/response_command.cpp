@@ -111,48 +111,73 @@ std::vector<RunWarning> list_lifting_wheels(const PreparedRun& prepared, const L
   return warnings;
 }
 
-// Whether the law of the element's states is linearised in another way.
-bool is_linearised_for_motion(const LinearVehicle& vehicle, const std::string& element) {
-  const auto& forces = vehicle.model().forces;
-  const auto found =
-      std::find_if(forces.begin(), forces.end(), [&](const auto& force) { return force->name == element; });
-  return found != forces.end() &&
-         needs_random_linearisation(vehicle, static_cast<std::size_t>(found - forces.begin()));
+// A line for the heading, "" for no elements.
+std::string list_elements(const char* what, const std::vector<std::string>& elements) {
+  return elements.empty() ? "" : fmt::format("{}: {}", what, fmt::join(elements, ", "));
 }
 
-std::string describe_mean_slopes(const LinearVehicle& vehicle) {
-  std::vector<std::string> names;
-  for (const Kink& kink : vehicle.kinks()) {
-    if (!kink.in_position && !is_linearised_for_motion(vehicle, kink.element)) names.push_back(kink.element);
+// Linearises friction, orifices and dampers for the motion on the road. @return lines for the heading
+std::vector<std::string> linearise_for_road(const Run& run, LinearVehicle& vehicle) {
+  std::vector<std::string> with_states, dampers;
+  const FrequencyRange range{.from = run.response.from, .to = run.response.to};
+  for (const RandomLinearisation& one :
+       linearise_for_random_motion(vehicle, *run.response.road, run.speed, range)) {
+    if (one.has_states) with_states.push_back(fmt::format("{} ({:.3g} m)", one.element, one.rms_deflection));
+    if (one.rms_rates.empty()) continue;
+    std::vector<std::string> rates;
+    for (std::size_t i = 0; i < one.rms_rates.size(); ++i)
+      rates.push_back(fmt::format("{:.3g} {}", one.rms_rates[i], one.rate_units[i]));
+    dampers.push_back(fmt::format("{} ({})", one.element, fmt::join(rates, ", ")));
   }
-  return names.empty()
-             ? ""
-             : fmt::format("Linearised with the mean of the two slopes at rest: {}", fmt::join(names, ", "));
+  return {
+      list_elements("Dampers linearised for the r.m.s. rate on this road", dampers),
+      list_elements("Friction and orifices linearised for the r.m.s. deflection on this road", with_states)};
 }
 
-// Linearises friction and orifices for the motion on the road. @return a line for the heading, "" if there
-// are none
-std::string linearise_for_motion(const Run& run, LinearVehicle& vehicle) {
-  std::vector<std::string> names;
-  if (run.response.road) {
-    const FrequencyRange range{.from = run.response.from, .to = run.response.to};
-    for (const RandomLinearisation& one :
-         linearise_for_random_motion(vehicle, *run.response.road, run.speed, range)) {
-      names.push_back(fmt::format("{} ({:.3g} m)", one.element, one.rms_deflection));
-    }
-    return names.empty()
-               ? ""
-               : fmt::format("Friction and orifices linearised for the r.m.s. deflection on this road: {}",
-                             fmt::join(names, ", "));
-  }
+// What is linear near rest alone, where there is no road that gives an amplitude. @return lines for the
+// heading
+std::vector<std::string> describe_laws_at_rest(const LinearVehicle& vehicle) {
+  std::vector<std::string> with_states, dampers;
   for (std::size_t f = 0; f < vehicle.model().forces.size(); ++f) {
-    if (needs_random_linearisation(vehicle, f)) names.push_back(vehicle.model().forces[f]->name);
+    const RandomLaws laws = find_random_laws(vehicle, f);
+    const std::string& name = vehicle.model().forces[f]->name;
+    if (laws.states) with_states.push_back(name);
+    const bool has_two_slopes =
+        std::any_of(vehicle.kinks().begin(), vehicle.kinks().end(),
+                    [&](const Kink& kink) { return !kink.in_position && kink.element == name; });
+    if (!laws.rate_slopes.empty() && !has_two_slopes) dampers.push_back(name);
   }
-  return names.empty() ? ""
-                       : fmt::format(
-                             "Friction holds and orifices let pass as near rest, since without response.road "
-                             "they have no amplitude: {}",
-                             fmt::join(names, ", "));
+  return {
+      list_elements("Dampers have their slope at rest, since without response.road they have no amplitude",
+                    dampers),
+      list_elements("Friction holds and orifices let pass as near rest, since without response.road they "
+                    "have no amplitude",
+                    with_states)};
+}
+
+// Elements whose law changes with the sign of a rate and has not been linearised for the road.
+std::string describe_mean_slopes(const LinearVehicle& vehicle, bool has_road) {
+  std::vector<std::string> names;
+  const auto& forces = vehicle.model().forces;
+  for (const Kink& kink : vehicle.kinks()) {
+    if (kink.in_position) continue;
+    const auto found = std::find_if(forces.begin(), forces.end(),
+                                    [&](const auto& force) { return force->name == kink.element; });
+    const RandomLaws laws = find_random_laws(vehicle, static_cast<std::size_t>(found - forces.begin()));
+    if (has_road && !laws.is_empty()) continue;
+    names.push_back(kink.element);
+  }
+  return list_elements("Linearised with the mean of the two slopes at rest", names);
+}
+
+// Gives the vehicle the laws that belong to the road. @return lines for the heading
+std::vector<std::string> linearise_laws(const Run& run, LinearVehicle& vehicle) {
+  const bool has_road = run.response.road.has_value();
+  std::vector<std::string> remarks{describe_mean_slopes(vehicle, has_road)};
+  for (std::string& one : has_road ? linearise_for_road(run, vehicle) : describe_laws_at_rest(vehicle))
+    remarks.push_back(std::move(one));
+  std::erase(remarks, "");
+  return remarks;
 }
 
 LinearOutputs make_outputs(const PreparedRun& prepared, const LinearVehicle& vehicle) {
@@ -181,16 +206,14 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   LinearVehicle vehicle(prepared.balance_model, prepared.equilibrium->q);
   check_inputs(prepared, vehicle);
   check_stability(prepared, vehicle);
-  const std::string states = linearise_for_motion(prepared.run, vehicle);
+  const std::vector<std::string> remarks = linearise_laws(prepared.run, vehicle);
   ResponseResult result =
       calc_response_result(prepared.run, prepared.vehicle, vehicle, make_outputs(prepared, vehicle));
   result.overrides = request.overrides;
   result.warnings = list_warnings(prepared, vehicle);
   for (RunWarning& warning : list_lifting_wheels(prepared, vehicle, result))
     result.warnings.push_back(std::move(warning));
-  if (const std::string means = describe_mean_slopes(vehicle); !means.empty())
-    result.remarks.push_back(means);
-  if (!states.empty()) result.remarks.push_back(states);
+  result.remarks = remarks;
 
   if (!output.results.empty()) write_response(output.results, result);
   if (output.json) {

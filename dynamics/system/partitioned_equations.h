@@ -74,6 +74,11 @@ class PartitionedEquations {
     mutable_terms().set_fading_forces(std::move(fading));
   }
 
+  /// Linear laws of damper forces, see SystemForces.
+  void set_rate_slopes(std::vector<std::vector<double>> slopes) {
+    mutable_terms().set_rate_slopes(std::move(slopes));
+  }
+
   /// For positions at which the independents do not give the dependents, see ConstrainedEquations; after it
   /// `return_to_accepted`.
   ConstrainedEquations& all_coordinates() { return full_; }

@@ -25,6 +25,7 @@ void SystemForces::update(const SystemMotion& motion, std::span<const int> branc
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
     const ForceElement& force = *model_->forces[f];
     now.states = model_->states_of(f, motion.v.data());
+    now.rate_slopes = rate_slopes_of(f);
     const Power power = force.add_wrenches(now, model_->branches_of(f, branches), wrenches_);
     power_.dissipated += power.dissipated;
     power_.input += power.input;

@@ -31,6 +31,13 @@ class SystemForces {
   void set_fading(std::vector<FadingForce> fading) { fading_ = std::move(fading); }
   const std::vector<FadingForce>& fading() const { return fading_; }
 
+  /// Linear laws in the place of those of damper forces (Instant::rate_slopes), one entry for each force
+  /// element; empty: none.
+  void set_rate_slopes(std::vector<std::vector<double>> slopes) { rate_slopes_ = std::move(slopes); }
+  std::span<const double> rate_slopes_of(std::size_t force) const {
+    return rate_slopes_.empty() ? std::span<const double>() : std::span<const double>(rate_slopes_[force]);
+  }
+
   /// @param branches  num_branches
   void update(const SystemMotion& motion, std::span<const int> branches);
   const Eigen::VectorXd& generalized() const { return Q_; }  ///< Q, nq
@@ -62,6 +69,7 @@ class SystemForces {
   std::vector<ConstantBody> constant_bodies_;
   std::vector<VaryingBody> varying_bodies_;
   std::vector<FadingForce> fading_;
+  std::vector<std::vector<double>> rate_slopes_;
   std::vector<Wrench> wrenches_;
   Eigen::VectorXd Q_;
   Power power_;

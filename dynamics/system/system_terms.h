@@ -99,6 +99,10 @@ class SystemTerms {
   /// on.
   void set_fading_forces(std::vector<FadingForce> fading) { forces_.set_fading(std::move(fading)); }
   const std::vector<FadingForce>& fading_forces() const { return forces_.fading(); }
+  /// Linear laws of damper forces, see SystemForces; from the next `update_forces` on.
+  void set_rate_slopes(std::vector<std::vector<double>> slopes) {
+    forces_.set_rate_slopes(std::move(slopes));
+  }
   /// Forces and torques of force elements, and of joints under multipliers λ, on each marker; after
   /// `update_jacobian` and `update_forces`. @param[out] loads  of all markers, world axes
   void calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> loads) const;
@@ -124,7 +128,9 @@ class SystemTerms {
     return rotations_[body];
   }
   /// With the states of force element f; after update_velocities.
-  Instant instant_of(std::size_t f) const { return {time_, markers(), model_->states_of(f, v_.data())}; }
+  Instant instant_of(std::size_t f) const {
+    return {time_, markers(), model_->states_of(f, v_.data()), forces_.rate_slopes_of(f)};
+  }
 
  private:
   void set_only(Term term) { up_to_date_ = static_cast<unsigned>(term); }

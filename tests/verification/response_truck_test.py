@@ -33,12 +33,17 @@ class Truck(ResponseCase):
 
     def test_forces_move_the_masses(self):
         # Newton for the front axle, at every frequency: tyres, suspension and the reactions of both arms' joints.
-        response = self.truck(*overrides(modes__chassis=4))
-        for end, axle in (("front", 1185.0), ("rear", 1185.0)):
-            arms = sum(-response[f"joints/{end}_{arm}_axle/reaction.y"] for arm in ("long", "short"))
-            lift = response[f"forces/{end}_tyre/force"] - response[f"forces/{end}_suspension/force"] + arms
-            inertia = axle * response[f"points/{end}_axle.origin/acceleration.y"]
-            self.assert_close(np.abs(lift - inertia), 0.0, absolute=1e-6 * np.max(np.abs(inertia)))
+        # With dampers that have their slope at rest, and the one for their motion on a road.
+        table = "{ table = [[-1.0, -9e3], [-0.05, -3e3], [0.0, 0.0], [0.05, 4e3], [1.0, 1e4]] }"
+        digressive = [*overrides(vehicle__forces__front_suspension__damper=table,
+                                 vehicle__forces__rear_suspension__damper=table), *overrides(response__road__class="D")]
+        for arguments in ([], digressive):
+            response = self.truck(*overrides(modes__chassis=4), *arguments)
+            for end, axle in (("front", 1185.0), ("rear", 1185.0)):
+                arms = sum(-response[f"joints/{end}_{arm}_axle/reaction.y"] for arm in ("long", "short"))
+                lift = response[f"forces/{end}_tyre/force"] - response[f"forces/{end}_suspension/force"] + arms
+                inertia = axle * response[f"points/{end}_axle.origin/acceleration.y"]
+                self.assert_close(np.abs(lift - inertia), 0.0, absolute=1e-6 * np.max(np.abs(inertia)))
         self.assertGreater(np.max(np.abs(response["joints/front_long_axle/reaction.y"])), 1e4)
 
     def test_run_over_a_low_sinusoidal_road(self):

@@ -227,7 +227,7 @@ TEST_CASE("An orifice is linearised as it is near rest for small motion, and for
   std::vector<double> rms(spring.channels().size(), 0.0);
   const auto decay = [&](double difference) {
     rms[5] = difference;
-    return spring.linearise_states(pair.instant(), branches, rms)->decay(0, 0);
+    return spring.linearise_for_random_motion(pair.instant(), branches, rms).states->decay(0, 0);
   };
   // Near rest by differences of the law.
   test::MarkerPair moved = pair;

@@ -131,15 +131,25 @@ TEST_CASE("Every element gives all of its channels, each under a name of its own
   }
 }
 
-TEST_CASE("The law in place of that of an element's states has their number") {
+TEST_CASE("The laws in the place of those of an element have the number of its states and rates") {
   const Elements elements;
-  int num_linearised = 0;
+  int num_linearised = 0, num_dampers = 0;
   for (const auto& force : elements.model.forces) {
     CAPTURE(force->name, force->kind());
     MarkerPair at_rest{.markers = elements.markers};
     at_rest.states.assign(force->internal_states().size(), 0.0);
     const std::vector<double> rms(force->channels().size(), 0.01);
-    const auto law = force->linearise_states(at_rest.instant(), choose_branches(*force, at_rest), rms);
+    const dynamics::RandomLaws laws =
+        force->linearise_for_random_motion(at_rest.instant(), choose_branches(*force, at_rest), rms);
+    if (!laws.rate_slopes.empty()) {
+      ++num_dampers;
+      const auto is_rate = [](const dynamics::Channel& one) {
+        return one.role == dynamics::ChannelRole::kRate;
+      };
+      const auto channels = force->channels();
+      CHECK(std::ssize(laws.rate_slopes) == std::count_if(channels.begin(), channels.end(), is_rate));
+    }
+    const auto& law = laws.states;
     if (!law) continue;
     ++num_linearised;
     const auto n = static_cast<Eigen::Index>(at_rest.states.size());
@@ -150,4 +160,44 @@ TEST_CASE("The law in place of that of an element's states has their number") {
     CHECK(law->decay.allFinite());
   }
   CHECK(num_linearised > 0);
+  CHECK(num_dampers > 0);
+}
+
+TEST_CASE("Linear laws of dampers give channels and forces the same power") {
+  // Its slope changes the force channel and the power of the wrenches by slope times rate, which is what is
+  // dissipated.
+  const Elements elements;
+  test::RandomNumbers random(7);
+  for (const auto& force : elements.model.forces) {
+    const MarkerPair pair = elements.move(*force, random);
+    const std::vector<int> branches = choose_branches(*force, pair);
+    const auto num_slopes =
+        force->linearise_for_random_motion(pair.instant(), branches, {}).rate_slopes.size();
+    if (num_slopes == 0) continue;
+    CAPTURE(force->name, force->kind());
+    const auto calc_power = [&](const std::vector<double>& slopes) {
+      dynamics::Instant now = pair.instant();
+      now.rate_slopes = slopes;
+      std::vector<dynamics::Wrench> wrenches(now.markers.size());
+      const double dissipated = force->add_wrenches(now, branches, wrenches).dissipated;
+      double power = 0.0;
+      for (std::size_t m = 0; m < wrenches.size(); ++m)
+        power += wrenches[m].force.dot(now.markers[m].v) + wrenches[m].torque * now.markers[m].omega;
+      return std::pair{power, dissipated};
+    };
+    std::vector<double> slopes(num_slopes, 0.0), values(force->channels().size());
+    const auto [power_without, dissipated_without] = calc_power(slopes);
+    force->calc_channels(pair.instant(), branches, values);
+    double expected = 0.0;
+    std::size_t k = 0;
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      if (force->channels()[c].role != dynamics::ChannelRole::kRate) continue;
+      slopes[k] = 100.0 + 10.0 * static_cast<double>(k);
+      expected += slopes[k] * values[c] * values[c];
+      ++k;
+    }
+    const auto [power, dissipated] = calc_power(slopes);
+    CHECK(dissipated - dissipated_without == Approx(expected).epsilon(1e-9));
+    CHECK(power_without - power == Approx(expected).epsilon(1e-9));
+  }
 }
