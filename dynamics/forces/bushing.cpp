@@ -68,6 +68,12 @@ void Bushing::calc_state_rates(const Instant& instant, std::span<const int> /*br
   }
 }
 
+std::vector<DeflectionLaw> Bushing::deflection_laws() const {
+  std::vector<DeflectionLaw> laws;
+  for (std::size_t k = 0; k < 3; ++k) laws.push_back({k, &parameters_.directions[k].spring});
+  return laws;
+}
+
 RandomLaws Bushing::linearise_for_random_motion(const Instant& /*at_rest*/, std::span<const int> /*branches*/,
                                                 std::span<const double> rms) const {
   const auto is_linear = [](const Direction& direction) { return has_one_slope(direction.damper); };

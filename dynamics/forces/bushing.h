@@ -38,6 +38,7 @@ class Bushing final : public ForceElement {
   std::vector<int> markers() const override { return {parameters_.marker_a, parameters_.marker_b}; }
   std::vector<int> turned_markers() const override;
   ElementDescription describe() const override;
+  std::vector<DeflectionLaw> deflection_laws() const override;
   Power add_wrenches(const Instant& instant, std::span<const int> branches,
                      std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;

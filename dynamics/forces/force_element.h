@@ -11,6 +11,7 @@
 #include "dynamics/bodies/marker.h"
 #include "dynamics/description/element_description.h"
 #include "dynamics/forces/road_response.h"
+#include "dynamics/functions/piecewise_polynomial.h"
 #include "dynamics/functions/time_function.h"
 
 namespace sprung::dynamics {
@@ -55,6 +56,14 @@ struct RandomLaws {
   std::vector<double> rate_slopes = {};
 
   bool is_empty() const { return !states && rate_slopes.empty(); }
+};
+
+/// What a force depends on by a deflection of its element, and a linear vehicle has the slope at rest of.
+struct DeflectionLaw {
+  std::size_t channel = 0;                      ///< of the deflection
+  const PiecewisePolynomial* law = nullptr;     ///< of the element, with its stops; null: it is a stop alone
+  std::optional<double> compression_stop = {};  ///< deflection from which on a stop acts [m or rad]
+  std::optional<double> rebound_stop = {};      ///< deflection up to which a stop acts
 };
 
 /// Power by which a force element reduces (dissipated) or increases (input) the mechanical energy [W].
@@ -137,6 +146,9 @@ class ForceElement {
                                                  std::span<const double> /*rms*/) const {
     return {};
   }
+
+  /// The laws of its springs.
+  virtual std::vector<DeflectionLaw> deflection_laws() const { return {}; }
 
   virtual int num_branches() const { return 0; }
   /// @param[in,out] branches  those in use, all 0 at the start of a run. A branch stays in use up to half a

@@ -30,6 +30,9 @@ class HydraulicStop final : public ForceElement {
   std::string_view kind() const override { return "hydraulic-stop"; }
   std::vector<int> markers() const override { return {parameters_.marker_a, parameters_.marker_b}; }
   ElementDescription describe() const override;
+  std::vector<DeflectionLaw> deflection_laws() const override {
+    return {{.channel = 1, .compression_stop = 0.0}};
+  }
   Power add_wrenches(const Instant& instant, std::span<const int> branches,
                      std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;

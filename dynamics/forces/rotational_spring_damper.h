@@ -26,6 +26,9 @@ class RotationalSpringDamper final : public SpringAndDamper {
   std::string_view kind() const override { return "rotational-spring-damper"; }
   std::vector<int> markers() const override { return {parameters_.marker_a, parameters_.marker_b}; }
   ElementDescription describe() const override;
+  std::vector<DeflectionLaw> deflection_laws() const override {
+    return {{1, &parameters_.spring, parameters_.compression_stop, parameters_.rebound_stop}};
+  }
   Power add_wrenches(const Instant& instant, std::span<const int> branches,
                      std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;

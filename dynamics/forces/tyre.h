@@ -28,6 +28,7 @@ class Tyre : public ForceElement {
   std::string_view kind() const final { return "tyre"; }
   std::vector<int> markers() const final { return {parameters_.marker}; }
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const final;
+  std::vector<DeflectionLaw> deflection_laws() const final { return {{1, &parameters_.spring}}; }
 
   int num_branches() const final { return 2; }
   void choose_branches(const Instant& instant, std::span<int> branches) const final;

@@ -8,10 +8,10 @@
 #include "dynamics/linear/random_linearisation.h"
 #include "dynamics/output/response_report.h"
 #include "dynamics/output/response_writer.h"
-#include "dynamics/output/resting_forces.h"
 #include "dynamics/preparation/start_state.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
+#include "dynamics/program/response_warnings.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/hdf5/foreign_file.h"
 #include "tools/support/terminal/print.h"
@@ -20,9 +20,6 @@
 namespace sprung::dynamics {
 
 namespace {
-
-constexpr std::string_view kResponse = "response";  // what the warnings concern
-constexpr double kLifting = 3.0;  // r.m.s. values: a normal variable falls so low in a thousandth of the time
 
 void check_request(const Run& run) {
   if (run.start == Run::Start::kSteady) {
@@ -56,59 +53,6 @@ void check_inputs(const PreparedRun& prepared, const LinearVehicle& vehicle) {
   if (std::none_of(inputs.begin(), inputs.end(), [](const RoadInput& input) { return input.is_pressed; })) {
     throw support::NumericalError("response: no wheel is on the ground in static equilibrium");
   }
-}
-
-std::vector<RunWarning> list_warnings(const PreparedRun& prepared, const LinearVehicle& vehicle) {
-  std::vector<RunWarning> warnings;
-  const auto warn = [&](const std::string& of, std::string text) {
-    warnings.push_back({std::string(kResponse), {of}, std::move(text)});
-  };
-  for (const RoadInput& input : vehicle.inputs()) {
-    if (input.is_pressed) continue;
-    warn(input.name, fmt::format("'{}' is off the ground in static equilibrium: the road does not act on it",
-                                 input.name));
-  }
-  for (const Kink& kink : vehicle.kinks()) {
-    if (kink.in_position) warn(kink.element, kink.describe());
-  }
-  for (const WheelSpeed& wheel : find_wheels_of_other_speed(prepared)) {
-    warn(wheel.name,
-         fmt::format("'{}' rolls at {:.6g} m/s at the start of a run; the road passes at 'speed', {:g} m/s",
-                     wheel.name, wheel.speed, prepared.run.speed));
-  }
-  return warnings;
-}
-
-// Wheels that the random road would lift, which a linear vehicle cannot know.
-std::vector<RunWarning> list_lifting_wheels(const PreparedRun& prepared, const LinearVehicle& vehicle,
-                                            const ResponseResult& result) {
-  std::vector<RunWarning> warnings;
-  if (!result.has_road()) return warnings;
-  const Model& model = vehicle.model();
-  const RestingForces at_equilibrium(model, prepared.equilibrium->q);
-  for (std::size_t i = 0; i < result.subjects.size(); ++i) {
-    const OutputSubject& subject = result.subjects[i];
-    if (subject.kind != OutputSubject::Kind::kChannel || subject.role != ChannelRole::kForce) continue;
-    const auto f = static_cast<std::size_t>(subject.object);
-    const auto* tyre = std::get_if<TyreDescription>(&prepared.vehicle.forces[f].parameters);
-    if (tyre == nullptr || !tyre->parameters.one_sided) continue;
-    const ForceElement& force = *model.forces[f];
-    const std::vector<double> values = at_equilibrium.calc_channels(f);
-    const auto is_force = [](const Channel& channel) { return channel.role == ChannelRole::kForce; };
-    const auto channels = force.channels();
-    const auto place = std::find_if(channels.begin(), channels.end(), is_force) - channels.begin();
-    const double rms = result.rms[static_cast<Eigen::Index>(i)],
-                 at_rest = values[static_cast<std::size_t>(place)];
-    if (kLifting * rms <= at_rest) continue;
-    warnings.push_back(
-        {std::string(kResponse),
-         {force.name},
-         fmt::format(
-             "'{}' leaves the ground now and then, which a linear response does not contain: its force "
-             "varies by {:.4g} N r.m.s. about {:.4g} N at rest",
-             force.name, rms, at_rest)});
-  }
-  return warnings;
 }
 
 // A line for the heading, "" for no elements.
@@ -210,9 +154,7 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   ResponseResult result =
       calc_response_result(prepared.run, prepared.vehicle, vehicle, make_outputs(prepared, vehicle));
   result.overrides = request.overrides;
-  result.warnings = list_warnings(prepared, vehicle);
-  for (RunWarning& warning : list_lifting_wheels(prepared, vehicle, result))
-    result.warnings.push_back(std::move(warning));
+  result.warnings = list_response_warnings(prepared, vehicle, result);
   result.remarks = remarks;
 
   if (!output.results.empty()) write_response(output.results, result);

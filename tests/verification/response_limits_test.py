@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+"""Response where it is not that of the vehicle: stops, springs that bend."""
+
+import unittest
+
+import h5py
+from response_case import ResponseCase, overrides
+from scipy.stats import norm
+from verification_case import EXAMPLES
+
+QUARTER_CAR = EXAMPLES / "quarter_car_run.toml"
+AT_REST = 0.14715  # deflection of the suspension [m]
+STIFFNESS = 2e4
+SPRING = "spring = { polynomial = [0.0, 2.0e4] }"
+ON_ROAD = overrides(speed=20, vehicle__motions__way__function__polynomial="[0.0, 20.0]", response__road__class="C")
+
+
+class QuarterCar(ResponseCase):
+    """On class C at 20 m/s the deflection of the suspension varies by 10.7 mm r.m.s."""
+
+    def write(self, old, new):
+        vehicle = (EXAMPLES / "quarter_car.toml").read_text(encoding="utf-8")
+        self.assertIn(old, vehicle)
+        return self.write_model(vehicle.replace(old, new, 1), "speed = 20.0\nduration = 1.0\n")
+
+    def list_texts(self, run, *arguments):
+        return [one["text"] for one in self.response(run, *ON_ROAD, *arguments).report["warnings"]]
+
+    def test_stops_within_three_deviations_are_named(self):
+        for stop, distance, is_reached in (
+            ("compression", 0.030, True), ("compression", 0.035, False),
+            ("rebound", -0.030, True), ("rebound", -0.035, False),
+        ):  # fmt: skip
+            with self.subTest(stop=stop, distance=distance):
+                run = self.write(SPRING, f"{SPRING}\n{stop}_stop = {{ deflection = {AT_REST + distance}, rate = 2e5 }}")
+                path = self.folder / "stop.h5"
+                texts = self.list_texts(run, "-o", path)
+                if not is_reached:
+                    self.assertEqual(texts, [])
+                    continue
+                (text,) = texts
+                self.assertTrue(text.startswith(f"'suspension' reaches its {stop} stop now and then"), text)
+                self.assertIn("0.0107 m r.m.s. about 0.1472 m at rest", text)
+                self.assertIn(f"the stop begins at {AT_REST + distance:.4g} m", text)
+                with h5py.File(path, "r") as file:
+                    self.assertEqual(list(file["warnings/text"].asstr()), [text])
+                printed = self.attempt(run, *ON_ROAD)
+                self.assertIn(f"warning: {text}\n", printed.stdout)
+
+    def test_a_hydraulic_stop_is_named(self):
+        run = self.write("[[forces]]", '''[[forces]]
+name = "catch"
+type = "hydraulic-stop"
+a = "unsprung.origin"
+b = "sprung.origin"
+contact_length = 0.28
+spring = { polynomial = [0.0, 1e5] }
+[[forces]]''')
+        (text,) = self.list_texts(run)
+        self.assertTrue(text.startswith("'catch' reaches its stop now and then"), text)
+
+    def test_a_spring_that_bends_within_its_motion_is_named(self):
+        # Three times as stiff beyond a kink: E[F′] = k (1 + 2 P(x > kink)) for a normal x.
+        rms = self.response(QUARTER_CAR, *ON_ROAD).rms("forces/suspension/deflection")
+        for deviations, is_bent in ((1.0, True), (2.5, False)):
+            with self.subTest(deviations=deviations):
+                kink = AT_REST + deviations * rms
+                points = [[0.0, 0.0], [kink, STIFFNESS * kink], [kink + 0.1, STIFFNESS * (kink + 0.3)]]
+                texts = self.list_texts(self.write(SPRING, f"spring = {{ table = {points} }}"))
+                mean = STIFFNESS * (1.0 + 2.0 * norm.sf(deviations))
+                self.assertEqual([f": {mean:.4g} N/m in the mean" in text for text in texts], [True] * is_bent)
+
+
+if __name__ == "__main__":
+    unittest.main()
