@@ -10,20 +10,19 @@ using support::Json;
 
 namespace {
 
-// In the text table: vertical motion of points, forces, torques and deflections of force elements.
-bool is_shown(const OutputSubject& subject) {
-  if (subject.kind == OutputSubject::Kind::kPoint) return subject.component == 1;
-  if (subject.kind != OutputSubject::Kind::kChannel) return false;
-  return subject.role == ChannelRole::kForce || subject.role == ChannelRole::kTorque ||
-         subject.role == ChannelRole::kDeflection;
-}
-
 std::vector<double> row_of(const Eigen::MatrixXd& matrix, Eigen::Index row) {
   const Eigen::VectorXd values = matrix.row(row);
   return {values.begin(), values.end()};
 }
 
 }  // namespace
+
+bool is_main_output(const OutputSubject& subject) {
+  if (subject.kind == OutputSubject::Kind::kPoint) return subject.component == 1;
+  if (subject.kind != OutputSubject::Kind::kChannel) return false;
+  return subject.role == ChannelRole::kForce || subject.role == ChannelRole::kTorque ||
+         subject.role == ChannelRole::kDeflection;
+}
 
 std::string format_response(const ResponseResult& result) {
   const std::vector<double>& f = result.frequency_hz;
@@ -40,7 +39,7 @@ std::string format_response(const ResponseResult& result) {
   if (result.has_road()) header.emplace_back("r.m.s.");
   support::TextTable table(header);
   for (std::size_t i = 0; i < result.names.size(); ++i) {
-    if (!is_shown(result.subjects[i])) continue;
+    if (!is_main_output(result.subjects[i])) continue;
     const auto row = static_cast<Eigen::Index>(i);
     Eigen::Index peak = 0;
     const double largest = result.response.row(row).cwiseAbs().maxCoeff(&peak);

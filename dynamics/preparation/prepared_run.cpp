@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "dynamics/input/uncovered_loads.h"
 #include "dynamics/input/unit_remarks.h"
 #include "dynamics/preparation/automatic_modes.h"
+#include "dynamics/preparation/full_model.h"
 #include "dynamics/preparation/massless_check.h"
 #include "dynamics/preparation/start_state.h"
 #include "dynamics/preparation/unlikely_balance.h"
@@ -292,21 +292,8 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
       options.linearised = &balance->linearised;
     }
   } else {
-    ModeSelection all;
-    ModalDamping damping;
-    for (const BodyDescription& body : prepared.vehicle.bodies) {
-      const reduce::Superelement* superelement = prepared.vehicle.superelement_of(body);
-      if (!superelement) continue;
-      std::vector<int>& numbers = all[body.name];
-      numbers.resize(static_cast<std::size_t>(superelement->num_modes()));
-      std::iota(numbers.begin(), numbers.end(), 1);
-      // One ratio for all modes holds for those left out as well; a list does not name them.
-      const auto request = prepared.run.modal_damping.find(body.name);
-      if (request != prepared.run.modal_damping.end() && request->second.ratios.size() == 1) {
-        damping[body.name] = request->second.ratios;
-      }
-    }
-    full = make_model(prepared.vehicle, all, prepared.placed_road, damping);
+    full = make_model(prepared.vehicle, select_all_modes(prepared.vehicle), prepared.placed_road,
+                      keep_single_ratios(prepared.run.modal_damping, prepared.vehicle));
     if (full->num_coordinates == prepared.model.num_coordinates) return std::nullopt;
     options.full = &*full;
     options.missing = find_missing_start(prepared, *full);

@@ -1,6 +1,7 @@
 #include "dynamics/program/response_warnings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,10 @@
 #include <variant>
 
 #include "dynamics/functions/mean_slope.h"
+#include "dynamics/linear/held_modes_effect.h"
+#include "dynamics/output/response_report.h"
 #include "dynamics/output/resting_forces.h"
+#include "dynamics/preparation/full_model.h"
 #include "dynamics/preparation/start_state.h"
 
 namespace sprung::dynamics {
@@ -17,6 +21,7 @@ namespace {
 
 constexpr double kReach = 3.0;  // r.m.s. values: a normal variable goes so far in a thousandth of the time
 constexpr double kBent = 0.05;  // change of a slope, of that at rest
+constexpr double kTooMuchLeftOut = 0.05;  // change of an output by the modes left out, as for a run
 constexpr double kRestReach = 1e-6;       // m or rad, r.m.s.: within it a law has its slope at rest
 
 class Warnings {
@@ -104,6 +109,36 @@ void warn_of_bends(const ForceElement& force, const std::vector<double>& at_rest
   }
 }
 
+// Modes left out whose effect on an output of the table is large.
+void warn_of_missing_modes(const PreparedRun& prepared, const LinearVehicle& vehicle, const Run& run,
+                           Warnings& warnings) {
+  const std::optional<FullVehicle> full = make_full_vehicle(prepared);
+  if (!full) return;
+  LinearVehicle linear(full->model, full->q);
+  if (!vehicle.random_laws().empty()) linear.set_random_laws(vehicle.random_laws());
+  LinearOutputs outputs = make_force_outputs(linear);
+  for (const std::string& point : resolve_response_points(run, prepared.vehicle))
+    outputs.append(make_point_outputs(linear, full->model.find_marker(point)));
+  std::vector<int> rows;
+  for (int i = 0; i < outputs.size(); ++i)
+    if (is_main_output(outputs.subjects[static_cast<std::size_t>(i)])) rows.push_back(i);
+  outputs = outputs.pick(rows);
+  const RoadSpectrum* road = run.response.road ? &*run.response.road : nullptr;
+  const Eigen::VectorXd change = calc_effect_of_holding(linear, outputs, full->left_out, road, run.speed,
+                                                        {run.response.from, run.response.to});
+  Eigen::Index worst = 0;
+  const double largest = change.cwiseAbs().maxCoeff(&worst);
+  if (largest <= kTooMuchLeftOut) return;
+  const std::string& name = outputs.names[static_cast<std::size_t>(worst)];
+  warnings.add(
+      name,
+      fmt::format("modes are missing: without those left out {} of {} is {:.3g} % too {}, and "
+                  "{} of {} outputs in the table differ by more than {:g} %; {}; take more modes",
+                  road ? "the r.m.s. value" : "the transfer function", name, 100.0 * largest,
+                  change[worst] > 0.0 ? "large" : "small", (change.array().abs() > kTooMuchLeftOut).count(),
+                  change.size(), 100.0 * kTooMuchLeftOut, fmt::join(full->incomplete, ", ")));
+}
+
 bool can_lift(const PreparedRun& prepared, std::size_t force) {
   const auto* tyre = std::get_if<TyreDescription>(&prepared.vehicle.forces[force].parameters);
   return tyre != nullptr && tyre->parameters.one_sided;
@@ -115,6 +150,7 @@ std::vector<RunWarning> list_response_warnings(const PreparedRun& prepared, cons
                                                const ResponseResult& result) {
   Warnings warnings;
   warn_at_rest(prepared, vehicle, warnings);
+  warn_of_missing_modes(prepared, vehicle, prepared.run, warnings);
   if (!result.has_road()) return warnings.take();
   const Model& model = vehicle.model();
   const RestingForces at_equilibrium(model, prepared.equilibrium->q);

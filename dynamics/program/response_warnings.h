@@ -11,7 +11,7 @@ namespace sprung::dynamics {
 /// What concerns the numbers of a response.
 inline constexpr std::string_view kResponse = "response";
 
-/// Inputs without effect, and what is not linear: wheels off the ground or at another
+/// Inputs without effect, modes that are missing, and what is not linear: wheels off the ground or at another
 /// speed, kinks at rest and, on a random road, wheels that lift, stops that are reached and springs that bend
 /// within their motion.
 /// @param result  complete but for its warnings

@@ -1,7 +1,10 @@
 #!/usr/bin/python3
-"""Response where it is not that of the vehicle: stops, springs that bend."""
+"""Response where it is not that of the vehicle: stops, springs that bend, modes that are missing."""
 
+import os
+import re
 import unittest
+from pathlib import Path
 
 import h5py
 from response_case import ResponseCase, overrides
@@ -13,6 +16,7 @@ AT_REST = 0.14715  # deflection of the suspension [m]
 STIFFNESS = 2e4
 SPRING = "spring = { polynomial = [0.0, 2.0e4] }"
 ON_ROAD = overrides(speed=20, vehicle__motions__way__function__polynomial="[0.0, 20.0]", response__road__class="C")
+TRUCK = Path(__file__).resolve().parents[2] / "dynamics/models/truck/bump.toml"
 
 
 class QuarterCar(ResponseCase):
@@ -69,6 +73,36 @@ spring = { polynomial = [0.0, 1e5] }
                 texts = self.list_texts(self.write(SPRING, f"spring = {{ table = {points} }}"))
                 mean = STIFFNESS * (1.0 + 2.0 * norm.sf(deviations))
                 self.assertEqual([f": {mean:.4g} N/m in the mean" in text for text in texts], [True] * is_bent)
+
+
+class Modes(ResponseCase):
+    FLEXIBLE = ("chassis", "front_long_arm", "rear_long_arm")
+    NARROW = overrides(response__number=2, response__to=30, response__road__class="C")
+
+    def respond(self, *arguments):
+        return self.response(TRUCK, *arguments, superelements=os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]).report
+
+    def list_missing(self, *arguments):
+        report = self.respond(*arguments)
+        return report, [one for one in report["warnings"] if "modes are missing" in one["text"]]
+
+    def test_the_output_that_misses_most_is_named(self):
+        all_modes = overrides(**{f"modes__{body}": '"all"' for body in self.FLEXIBLE})
+        full, none = self.list_missing(*self.NARROW, *all_modes)
+        self.assertEqual(none, [])
+        report, (warning,) = self.list_missing(*self.NARROW, *overrides(modes__chassis=2))
+        (name,) = warning["of"]
+        self.assertIn("chassis (2 of ", warning["text"])
+        # Expected: the responses of both vehicles, about their own equilibria and by the adaptive integral.
+        change = report["outputs"][name]["rms"] / full["outputs"][name]["rms"] - 1.0
+        words = re.search(r"the r.m.s. value of (\S+) is (\S+) % too (large|small)", warning["text"])
+        self.assertEqual((words[1], words[3]), (name, "large" if change > 0.0 else "small"))
+        self.assert_close(float(words[2]), 100.0 * abs(change), relative=0.02, absolute=0.2)
+        self.assertGreater(abs(change), 0.05)
+
+    def test_without_a_road_the_transfer_functions_are_compared(self):
+        _, (warning,) = self.list_missing(*overrides(response__number=2, response__to=30, modes__chassis=2))
+        self.assertIn("the transfer function of ", warning["text"])
 
 
 if __name__ == "__main__":
