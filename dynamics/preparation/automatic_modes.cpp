@@ -1,6 +1,7 @@
 #include "dynamics/preparation/automatic_modes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "dynamics/input/make_model.h"
@@ -14,6 +15,10 @@ namespace sprung::dynamics {
 
 namespace {
 
+constexpr double kDrive = 40.0;      // s: four periods of the lowest frequency by default, 0.1 Hz
+constexpr double kEased = 0.05;      // of the length, at either end
+constexpr double kLeastWaves = 2.0;  // in the range of frequencies
+
 bool is_driven(const Model& moving) {
   return std::any_of(moving.joints.begin(), moving.joints.end(), [](const auto& joint) {
     const std::vector<const TimeFunction*> functions = joint->time_functions();
@@ -22,8 +27,10 @@ bool is_driven(const Model& moving) {
   });
 }
 
-// The reason why the forcing of a run is not known beforehand; "" if it is known.
-std::string find_unknown(const Run& run, const Model& moving) {
+// The reason why the forcing is not known beforehand; "" if it is known.
+std::string find_unknown(const Run& run, const RoadOfChoice& road, const Model& moving) {
+  if (!road.road) return "no wave of response.road lies in the range of frequencies";
+  if (road.is_of_response) return "";
   if (run.start != Run::Start::kEquilibrium) return "the run does not start in static equilibrium";
   if (is_driven(moving)) return "prescribed motion drives the vehicle";
   if (!run.initial.empty()) return "[initial] adds motion at the start";
@@ -52,16 +59,42 @@ std::vector<CandidateMode> list_candidates(const Run& run, const Vehicle& vehicl
 
 }  // namespace
 
+RoadOfChoice make_road_of_run(const Run& run) {
+  return {.road = make_road(run.road), .duration = run.duration};
+}
+
+RoadOfChoice make_road_of_response(const Run& run) {
+  const double from = run.response.from, to = run.response.to;
+  const double duration = std::max(kDrive, kLeastWaves / (to - from));
+  RandomRoad random{.spectrum = *run.response.road,
+                    .lowest = from / run.speed,
+                    .highest = to / run.speed,
+                    .length = run.speed * duration};
+  random.ease = kEased * random.length;
+  // The waves of such a road are whole parts of its length.
+  bool has_waves = false;
+  for (double k = std::ceil(from * duration); k <= to * duration; ++k)
+    has_waves = has_waves || random.spectrum.density(k / random.length) > 0.0;
+  RoadOfChoice choice{.road = nullptr, .duration = duration, .is_of_response = true};
+  if (!has_waves) return choice;
+  RoadDescription description;
+  description.shape = "random";
+  description.random = random;
+  description.location = run.response.location;
+  choice.road = make_road(description);
+  return choice;
+}
+
 BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const ModeSelection& all,
                                    const ModalDamping& damping, const StiffenedBodies& stiffened,
-                                   const Road& road) {
+                                   const RoadOfChoice& road) {
   const FlatRoad level;
   const PlacedRoad placed{&level, vehicle.direction, 0.0};
   const Model model = make_model(vehicle, all, placed, damping, MotionUse::kHeld, stiffened);
   const std::vector<CandidateMode> candidates = list_candidates(run, vehicle, model);
   const double tolerance = run.mode_choice.tolerance;
   const std::string unknown =
-      find_unknown(run, make_model(vehicle, all, placed, damping, MotionUse::kMoving, stiffened));
+      find_unknown(run, road, make_model(vehicle, all, placed, damping, MotionUse::kMoving, stiffened));
   if (!unknown.empty()) return keep_all(candidates, tolerance, unknown);
 
   Eigen::VectorXd q = make_start_positions(model, vehicle);
@@ -78,7 +111,8 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
     if (model.markers[static_cast<std::size_t>(marker)].body != kGround) places.points.push_back(marker);
   }
   if (vehicle.judged.moments) places.moments = make_moment_outputs(linear, vehicle);
-  const KnownForcing forcing{.road = &road, .speed = std::max(run.speed, 0.0), .duration = run.duration};
+  const KnownForcing forcing{
+      .road = road.road.get(), .speed = std::max(run.speed, 0.0), .duration = road.duration};
   BasisChoice choice = choose_basis(linear, candidates, places, vehicle.judged, forcing, tolerance);
   for (const RoadInput& input : linear.inputs()) {
     if (!input.is_pressed)

@@ -29,6 +29,10 @@ namespace {
 constexpr std::string_view kVehiclePrefix = "vehicle.";
 constexpr double kNoRate = 1e-10;  // rate of a mode at the start that counts as zero, of all velocities
 
+bool needs_balance_alone(Preparation preparation) {
+  return preparation == Preparation::kBalance || preparation == Preparation::kResponse;
+}
+
 // Applies the overrides of one of the two files; messages locate them by their number on the command line.
 void apply_overrides(support::TomlDocument& document, const std::vector<std::string>& overrides,
                      bool of_vehicle) {
@@ -101,7 +105,7 @@ void read_files(const RunRequest& request, Preparation preparation, PreparedRun&
   apply_overrides(vehicle_document, request.overrides, true);
   prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder, request.superelements);
   // Equilibrium and linearisation need functions of time at t = 0 alone.
-  const double end = preparation == Preparation::kBalance ? 0.0 : prepared.run.duration;
+  const double end = needs_balance_alone(preparation) ? 0.0 : prepared.run.duration;
   check_histories(prepared.vehicle.histories, end);
   prepared.remarks = list_unit_remarks(prepared.run, prepared.vehicle);
   for (std::string& remark : list_history_remarks(prepared.vehicle.histories, end))
@@ -118,7 +122,7 @@ struct ModalProperties {
 };
 
 // Selects the modes that the run file asks for, and chooses those of bodies with modes "auto".
-ModalProperties choose_modes(PreparedRun& prepared) {
+ModalProperties choose_modes(Preparation preparation, PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
   prepared.selection = resolve_modes(run, vehicle);
@@ -133,8 +137,10 @@ ModalProperties choose_modes(PreparedRun& prepared) {
   }
   if (list_automatic_bodies(run.modes).empty()) return properties;
   const ModalDamping start_damping = keep_damping(properties.damping, prepared.available, prepared.selection);
-  prepared.choice = choose_automatic_modes(run, vehicle, prepared.selection, start_damping,
-                                           properties.stiffened, *prepared.road);
+  const bool is_of_response = preparation == Preparation::kResponse && run.response.road && run.speed > 0.0;
+  prepared.choice =
+      choose_automatic_modes(run, vehicle, prepared.selection, start_damping, properties.stiffened,
+                             is_of_response ? make_road_of_response(run) : make_road_of_run(run));
   prepared.selection = keep_modes(*prepared.choice, prepared.selection);
   if (!run.adaptivity.enabled) {
     properties.damping = keep_damping(properties.damping, prepared.available, prepared.selection);
@@ -179,7 +185,7 @@ Eigen::VectorXd find_balance(const ModalProperties& properties, Preparation prep
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   check_massless_bodies(vehicle, prepared.balance_model, q);
-  if (preparation != Preparation::kBalance && run.start == Run::Start::kAsGiven) return q;
+  if (!needs_balance_alone(preparation) && run.start == Run::Start::kAsGiven) return q;
   support::ProgressBar progress("static equilibrium", request.quiet, request.streams.err);
   const auto show = [&progress](int iteration, double step) {
     if (support::interrupt_requested()) throw support::Interrupted("in the static equilibrium");
@@ -253,7 +259,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   }
   // Modes are chosen about the balance of the rigid vehicle, if the run asks for a choice.
   if (!list_automatic_bodies(prepared.run.modes).empty()) find_free_lengths({}, {}, prepared);
-  const ModalProperties properties = choose_modes(prepared);
+  const ModalProperties properties = choose_modes(preparation, prepared);
   if (preparation == Preparation::kChoice) return prepared;
 
   const Eigen::VectorXd q = find_balance_or_explain(properties, preparation, request, prepared);
@@ -270,7 +276,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   IntegratorSettings& integrator = prepared.run.integrator;
   if (!integrator.names_method)
     integrator.options.method = default_method(prepared.model.num_freedoms(), prepared.model.has_modes());
-  prepared.start = preparation == Preparation::kBalance
+  prepared.start = needs_balance_alone(preparation)
                        ? make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates))
                        : find_start_state(q, prepared);
   if (preparation == Preparation::kRun)

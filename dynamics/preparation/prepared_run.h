@@ -52,9 +52,10 @@ struct PreparedRun {
 
 /// The part of the preparation that a command needs.
 enum class Preparation {
-  kChoice,   ///< up to the choice of the modes
-  kBalance,  ///< up to the equilibrium, also for a run that starts as given
-  kRun,      ///< all of it
+  kChoice,    ///< up to the choice of the modes
+  kBalance,   ///< up to the equilibrium, also for a run that starts as given
+  kResponse,  ///< the same, and modes "auto" are chosen from `[response.road]`, if there is one
+  kRun,       ///< all of it
 };
 
 /// Options for modes that join and leave, or for the indicator of modes left out; none if neither is needed.

@@ -124,6 +124,21 @@ std::vector<std::string> linearise_laws(const Run& run, LinearVehicle& vehicle) 
   return remarks;
 }
 
+// Lines for the heading about modes that were chosen.
+std::vector<std::string> describe_choice(const PreparedRun& prepared) {
+  if (!prepared.choice) return {};
+  const BasisChoice& choice = *prepared.choice;
+  std::vector<std::string> kept;
+  for (const ModeVerdict& verdict : choice.verdicts)
+    if (verdict.is_kept) kept.push_back(fmt::format("{} {}", verdict.mode.body, verdict.mode.number));
+  std::vector<std::string> lines{
+      fmt::format("Modes chosen from the road of {}, {} of {}: {}",
+                  prepared.run.response.road ? "[response.road]" : "[road]", kept.size(),
+                  choice.verdicts.size(), kept.empty() ? "none" : fmt::format("{}", fmt::join(kept, ", ")))};
+  lines.insert(lines.end(), choice.remarks.begin(), choice.remarks.end());
+  return lines;
+}
+
 LinearOutputs make_outputs(const PreparedRun& prepared, const LinearVehicle& vehicle) {
   LinearOutputs outputs = make_force_outputs(vehicle);
   for (const std::string& point : resolve_response_points(prepared.run, prepared.vehicle)) {
@@ -142,7 +157,7 @@ int response_command(const RunRequest& request, const RunOutput& output) {
         {.path = output.results.string()},
         "exists and is no response file, so it is not overwritten; move it or name another with -o");
   }
-  const PreparedRun prepared = prepare_run(request, Preparation::kBalance);
+  const PreparedRun prepared = prepare_run(request, Preparation::kResponse);
   check_request(prepared.run);
   if (prepared.balance_model.num_freedoms() == 0) {
     throw support::InputError(prepared.run.vehicle_location, "the vehicle has no freedom to respond with");
@@ -155,7 +170,8 @@ int response_command(const RunRequest& request, const RunOutput& output) {
       calc_response_result(prepared.run, prepared.vehicle, vehicle, make_outputs(prepared, vehicle));
   result.overrides = request.overrides;
   result.warnings = list_response_warnings(prepared, vehicle, result);
-  result.remarks = remarks;
+  result.remarks = describe_choice(prepared);
+  result.remarks.insert(result.remarks.end(), remarks.begin(), remarks.end());
 
   if (!output.results.empty()) write_response(output.results, result);
   if (output.json) {

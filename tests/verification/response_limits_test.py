@@ -104,6 +104,22 @@ class Modes(ResponseCase):
         _, (warning,) = self.list_missing(*overrides(response__number=2, response__to=30, modes__chassis=2))
         self.assertIn("the transfer function of ", warning["text"])
 
+    def test_modes_auto_are_chosen_from_the_road_of_the_response(self):
+        automatic = overrides(modes__chassis='"auto"')
+        flat = overrides(road='{ shape = "flat" }')
+        first, second = (self.respond(*self.NARROW, *automatic, *road) for road in ((), flat))
+        line = first["remarks"][0]
+        self.assertTrue(line.startswith("Modes chosen from the road of [response.road], "), line)
+        self.assertEqual(second["remarks"][0], line)
+        numbers = [mode["number"] for mode in first["mode_choice"]["modes"] if mode["kept"]]
+        self.assertGreater(len(numbers), 0)
+        self.assertTrue(line.endswith(": " + ", ".join(f"chassis {number}" for number in numbers)), line)
+        other = self.respond(*overrides(response__number=2, response__to=30), *automatic, *flat)["remarks"]
+        self.assertTrue(other[0].startswith("Modes chosen from the road of [road], "), other)
+        still = "neither road nor forces in time move the vehicle"
+        self.assertEqual([any(still in one for one in remarks) for remarks in (other, first["remarks"])],
+                         [True, False])
+
 
 if __name__ == "__main__":
     unittest.main()
