@@ -152,6 +152,13 @@ std::vector<RunWarning> list_response_warnings(const PreparedRun& prepared, cons
   warn_at_rest(prepared, vehicle, warnings);
   warn_of_missing_modes(prepared, vehicle, prepared.run, warnings);
   if (!result.has_road()) return warnings.take();
+  if (result.road_rms == 0.0) {
+    const ResponseRequest& response = prepared.run.response;
+    warnings.add("response.road", fmt::format("at {:g} m/s no wave of the road in response.road lies between "
+                                              "{:g} and {:g} Hz: all r.m.s. values are 0",
+                                              prepared.run.speed, response.from, response.to));
+    return warnings.take();
+  }
   const Model& model = vehicle.model();
   const RestingForces at_equilibrium(model, prepared.equilibrium->q);
   for (std::size_t f = 0; f < model.forces.size(); ++f) {

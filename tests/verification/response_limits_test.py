@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Response where it is not that of the vehicle: stops, springs that bend, modes that are missing."""
+"""Response where it is not that of the vehicle: stops, springs that bend, modes that are missing, no waves."""
 
 import os
 import re
@@ -73,6 +73,15 @@ spring = { polynomial = [0.0, 1e5] }
                 texts = self.list_texts(self.write(SPRING, f"spring = {{ table = {points} }}"))
                 mean = STIFFNESS * (1.0 + 2.0 * norm.sf(deviations))
                 self.assertEqual([f": {mean:.4g} N/m in the mean" in text for text in texts], [True] * is_bent)
+
+    def test_a_road_without_waves_in_the_range_is_told(self):
+        # Waves of 1 to 2 per metre at 20 m/s: 20 to 40 Hz.
+        band = overrides(response__road__band="[1.0, 2.0]")
+        self.assertEqual(self.list_texts(QUARTER_CAR, *band), [])
+        self.assertEqual(
+            self.list_texts(QUARTER_CAR, *band, *overrides(response__to=19)),
+            ["at 20 m/s no wave of the road in response.road lies between 0.1 and 19 Hz: all r.m.s. values are 0"],
+        )
 
 
 class Modes(ResponseCase):
