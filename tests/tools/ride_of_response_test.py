@@ -16,7 +16,7 @@ from sprung_tools.runs.ride_of_response import (
     list_points,
 )
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
-from sprung_tools.signals.ride_weighting import WD, WE, WK, weight_acceleration
+from sprung_tools.signals.ride_weighting import WD, WE, WK, calc_weighting, weight_acceleration
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import BANDS, NOMINAL, calc_third_octaves
 
@@ -24,9 +24,9 @@ STEP = 1e-3
 HIGHEST = 250.0  # Hz, far above what the weightings let through
 
 
-def write_response(path, densities):
+def write_response(path, densities, lowest=0.02, highest=HIGHEST):
     """A response file with one point, whose accelerations have constant spectral densities {axis: density}."""
-    frequency = np.geomspace(0.02, HIGHEST, 4000)
+    frequency = np.geomspace(lowest, highest, 4000)
     with h5py.File(path, "w") as file:
         file.attrs.update({"format": np.bytes_("sprung-response"), "version": 1, "title": "synthetic", "speed": 10.0})
         write_series(file, "frequency", frequency, "Hz")
@@ -59,6 +59,39 @@ class RideOfResponse(ToolTestCase):
             remarks = list_frequency_remarks(response, ["body.seat"])
             self.assertEqual(["are too few" in one for one in remarks], [True] if is_said else [])
             self.assertEqual("are too few" in self.run_tool("ride", path).stdout, is_said)
+
+    def test_a_range_that_cuts_the_weightings_is_remarked_on(self):
+        """The remark has what noise of the same density beyond the range would add."""
+        density = 0.02
+        for low, high, is_cut in ((0.1, 5.0, True), (2.0, 100.0, True), (0.2, 100.0, False)):
+            path = write_response(self.folder / f"{low}.h5", {axis: density for axis in ("x", "y", "angle")}, low, high)
+            (response,) = open_responses([path])
+            remarks = [one for one in list_frequency_remarks(response, ["body.seat"]) if "cut off" in one]
+            self.assertEqual(len(remarks), int(is_cut), (low, high))
+            printed = self.run_tool("ride", path).stdout
+            self.assertEqual("cut off the weightings" in printed, is_cut)
+            if not is_cut:
+                continue
+            frequency = np.geomspace(0.4, 80.0, 20000)
+            shares = []
+            for weighting in (WD, WK, WE):
+                passed = np.abs(calc_weighting(weighting, frequency)) ** 2
+                inside = np.geomspace(low, high, 20000)
+                within = np.trapz(np.abs(calc_weighting(weighting, inside)) ** 2, inside)
+                beyond = np.trapz(passed * ((frequency < low) | (frequency > high)), frequency)
+                shares.append(np.sqrt(1.0 + beyond / within) - 1.0)
+            self.assertIn(f"would be {100.0 * max(shares):.3g} % larger", remarks[0])
+            self.assertIn(f"frequencies from {low:g} to {high:g} Hz", remarks[0])
+
+    def test_a_spectrum_that_has_fallen_at_its_end_is_not_remarked_on(self):
+        """A spectrum that has fallen to little at its end cuts off little."""
+        path = write_response(self.folder / "a.h5", {"x": 0.01, "y": 0.01, "angle": 0.01}, 0.1, 50.0)
+        with h5py.File(path, "a") as file:
+            for axis in ("x", "y", "angle"):
+                spectrum = file[f"outputs/points/body.seat/acceleration.{axis}/spectrum"]
+                spectrum[:] = 0.01 / (1.0 + file["frequency"][:] ** 4)
+        (response,) = open_responses([path])
+        self.assertEqual(list_frequency_remarks(response, ["body.seat"]), [])
 
     def test_it_is_that_of_noise_in_time_with_the_same_spectra(self):
         densities = {"x": 0.02, "y": 0.08, "angle": 0.01}

@@ -17,12 +17,14 @@ from sprung_tools.files.array_types import ComplexNumbers, Floats
 from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.ride_assessment import calc_total
 from sprung_tools.signals.absorbed_power import FEET_PER_METRE, calc_response
-from sprung_tools.signals.ride_weighting import WD, WE, WK, calc_weighting
+from sprung_tools.signals.ride_weighting import HIGHEST, LOWEST, WD, WE, WK, Weighting, calc_weighting
 from sprung_tools.signals.third_octaves import BAND_EDGES, BANDS, calc_band
 
 LEAST_IN_BAND = 8  # frequencies, of a smooth spectrum the error of the trapezoidal rule is then below 0.1 %
 
-MOST_CHANGE = 0.02  # of r.m.s. values, by leaving out every second frequency
+MISSED = 200  # frequencies, for what lies beyond those of the file
+
+MOST_CHANGE = 0.02  # of r.m.s. values, by leaving out every second frequency, or by what lies beyond the frequencies
 
 
 class LinearAssessment(NamedTuple):
@@ -70,6 +72,41 @@ def calc_linear_bands(frequency: Floats, density: Floats) -> list[float | None]:
 
 
 def list_frequency_remarks(response: Response, points: Sequence[str]) -> list[str]:
+    """What is doubtful about the measures of points because of the frequencies of the file."""
+    return list_range_remarks(response, points) + list_density_remarks(response, points)
+
+
+def calc_cut_share(frequency: Floats, density: Floats, weighting: Weighting) -> float:
+    """By how much a weighted r.m.s. value would grow if the spectral density went on beyond the frequencies with its
+    values at the ends."""
+    inside = calc_filtered_rms(frequency, density, calc_weighting(weighting, frequency)) ** 2
+    beyond = 0.0
+    for value, start, end in ((density[0], LOWEST, frequency[0]), (density[-1], frequency[-1], HIGHEST)):
+        if start < end:
+            missed = np.geomspace(start, end, MISSED)
+            beyond += calc_filtered_rms(missed, np.full(MISSED, value), calc_weighting(weighting, missed)) ** 2
+    return float(np.sqrt(1.0 + beyond / inside)) - 1.0 if inside > 0.0 else 0.0
+
+
+def list_range_remarks(response: Response, points: Sequence[str]) -> list[str]:
+    """That the range of the frequencies cuts off what the weightings let through, if that may be much."""
+    frequency = response.frequency
+    worst, where = 0.0, ""
+    for point in points:
+        for axis, weighting in (("x", WD), ("y", WK), ("angle", WE)):
+            density = response.values(f"points/{point}/acceleration.{axis}", is_spectrum=True)[0]
+            share = calc_cut_share(frequency, density, weighting)
+            worst, where = (share, point) if share > worst else (worst, where)
+    if worst <= MOST_CHANGE:
+        return []
+    return [
+        f"frequencies from {frequency[0]:g} to {frequency[-1]:g} Hz cut off the weightings, which let pass from "
+        f"{LOWEST:g} to {HIGHEST:g} Hz: if the spectra went on as they end, a weighted r.m.s. value of {where} would "
+        f"be {100.0 * worst:.3g} % larger; take a wider range (response.from, response.to)"
+    ]
+
+
+def list_density_remarks(response: Response, points: Sequence[str]) -> list[str]:
     """That the frequencies are too few for the measures of points, if every second of them gives others."""
     if response.frequency.size < 3:
         return []
