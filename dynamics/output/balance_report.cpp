@@ -112,12 +112,17 @@ Json make_equilibrium_json(const BalanceReport& report) {
 }
 
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
-                         const std::vector<RunWarning>& warnings, bool is_steady) {
+                         const std::vector<Kink>& kinks, const std::vector<RunWarning>& warnings,
+                         bool is_steady) {
+  std::vector<std::string> two_slopes;
+  for (const Kink& kink : kinks)
+    if (!kink.in_position) two_slopes.push_back(kink.element);
   std::string text = fmt::format(
-      "{}: modes about {}, {} freedoms\n"
-      "A force with two slopes at rest, such as a damper with different rates in compression and rebound, "
-      "counts with their mean.\n{}\n",
-      vehicle.name, is_steady ? "steady motion" : "static equilibrium", model.num_mechanical_freedoms(),
+      "{}: modes about {}, {} freedoms\n{}{}\n", vehicle.name,
+      is_steady ? "steady motion" : "static equilibrium", model.num_mechanical_freedoms(),
+      two_slopes.empty()
+          ? ""
+          : fmt::format("With the mean of the two slopes at rest: {}\n", fmt::join(two_slopes, ", ")),
       model.num_states() > 0
           ? "Undamped frequencies are without friction of leaf springs and parts that relax or "
             "flow; damped frequencies contain them.\n"

@@ -6,6 +6,7 @@
 #include "dynamics/input/vehicle.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
+#include "dynamics/linear/state_derivatives.h"
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/section_loads/resting_sections.h"
 #include "dynamics/statistics/run_warnings.h"
@@ -45,9 +46,11 @@ std::string format_equilibrium(const BalanceReport& report);
 support::Json make_equilibrium_json(const BalanceReport& report);
 
 /// Table of the vehicle's modes, with the warnings that do not concern the files.
+/// @param kinks      at the balance
 /// @param is_steady  about steady motion, not at rest
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
-                         const std::vector<RunWarning>& warnings, bool is_steady = false);
+                         const std::vector<Kink>& kinks, const std::vector<RunWarning>& warnings,
+                         bool is_steady = false);
 /// @param sections  at the equilibrium   @param bracket  null: none
 support::Json make_modes_json(const Model& model, const Vehicle& vehicle,
                               const std::vector<VehicleMode>& modes, const SectionStatistics& sections,

@@ -74,8 +74,17 @@ void warn_of_rounded_modes(const Model& model, const std::vector<VehicleMode>& m
            fmt::join(open, ", "))});
 }
 
+// Kinks of force laws at the equilibrium.
+std::vector<Kink> find_kinks_at_balance(const PreparedRun& prepared) {
+  const Eigen::VectorXd& q = prepared.equilibrium->q;
+  PartitionedEquations equations(prepared.balance_model);
+  equations.choose_partition_at(0.0, q);
+  return find_kinks(equations, 0.0, q(equations.partition().independent), prepared.equilibrium->motion);
+}
+
 // What linear modes cannot show of the forces at rest.
-void warn_of_forces_at_rest(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
+void warn_of_forces_at_rest(const PreparedRun& prepared, const std::vector<Kink>& kinks,
+                            std::vector<RunWarning>& warnings) {
   if (!prepared.equilibrium->motion.is_rest()) return;
   const auto warn = [&](std::string text) {
     warnings.push_back({"modes", {"frequencies"}, std::move(text)});
@@ -93,7 +102,7 @@ void warn_of_forces_at_rest(const PreparedRun& prepared, std::vector<RunWarning>
         "the stiffness at rest is not symmetric, as with forces that follow a body: the undamped frequencies "
         "are those of its symmetric part; the damped ones are right");
   }
-  for (const Kink& kink : find_kinks(equations, 0.0, q(system.partition.independent)))
+  for (const Kink& kink : kinks)
     if (kink.in_position) warn(kink.describe());
 }
 
@@ -203,7 +212,8 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   std::vector<RunWarning> warnings = report_warnings(prepared, resting, request.streams.err);
   warn_of_rounding(*prepared.equilibrium, warnings);
   warn_of_rounded_modes(model, modes, warnings);
-  warn_of_forces_at_rest(prepared, warnings);
+  const std::vector<Kink> kinks = find_kinks_at_balance(prepared);
+  warn_of_forces_at_rest(prepared, kinks, warnings);
   warn_of_lost_damping(prepared.vehicle, model, modes, warnings);
   std::optional<FrequencyBracket> bracket;
   if (output.bracket) bracket = calc_bracket(prepared, warnings);
@@ -214,9 +224,9 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
                                                       bracket ? &*bracket : nullptr)));
     return support::kGood;
   }
-  support::print(
-      request.streams.out, "{}",
-      format_modes(model, prepared.vehicle, modes, warnings, prepared.run.start == Run::Start::kSteady));
+  support::print(request.streams.out, "{}",
+                 format_modes(model, prepared.vehicle, modes, kinks, warnings,
+                              prepared.run.start == Run::Start::kSteady));
   if (bracket)
     support::print(request.streams.out, "{}", format_bracket(prepared.vehicle, model, modes, *bracket));
   return support::kGood;

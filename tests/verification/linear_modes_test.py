@@ -2,11 +2,12 @@
 """What modes about an equilibrium leave out of the forces there, which is told beside them."""
 
 import math
+import os
 import unittest
 
 import numpy as np
 
-from verification_case import VerificationCase
+from verification_case import VerificationCase, run_program
 
 MOUNTED = """
 name = "mounted"
@@ -76,6 +77,20 @@ class LinearModes(VerificationCase):
             text, "'mount' changes its law at static equilibrium or very close to it: a mean slope is used"
         )
         self.assertEqual(self.find_modes("{ table = [[-1.0, -100.0], [0.2, 20.0], [1.0, 400.0]] }")["warnings"], [])
+
+    def test_forces_with_two_slopes_are_named_where_there_are_some(self):
+        damper = "damper = { compression = 5.0, rebound = 9.0 }"
+        linear = "{ polynomial = [0.0, 100.0] }"
+        for spring, is_named in ((f"{linear}, {damper}", True), (linear, False)):
+            run = self.write_model(MOUNTED.replace("{y}", spring), "duration = 1.0\n")
+            process = run_program([os.environ["SPRUNG_DYNAMICS"], "modes", run, "--quiet"], cwd=self.folder)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            self.assertEqual("With the mean of the two slopes at rest: mount\n" in process.stdout, is_named)
+            self.assertEqual("two slopes" in process.stdout, is_named)
+        # Against 7 N·s/m, the mean: ζ = c/2√(km).
+        (mode,) = (one for one in self.find_modes(f"{linear}, {damper}")["modes"]
+                   if one["damping_ratio"] > 0.0)
+        self.assert_close(mode["damping_ratio"], 7.0 / (2.0 * math.sqrt(100.0)), relative=1e-6)
 
     def test_damping_by_the_square_of_a_rate_is_none_near_rest_whatever_the_size_of_the_vehicle(self):
         # Differences alone, whose steps grow with the vehicle, gave 6 % of critical with a point at 10 m.
