@@ -38,6 +38,8 @@ class FullMotion {
   /// `duration`.
   /// @param coordinate  of the full model   @param force  −r [N/√kg]   @param time, duration  [s]
   void release(int coordinate, double force, double time, double duration);
+  /// The forces of `release`, on coordinates of the full model; some may have faded.
+  const std::vector<FadingForce>& fading() const { return fading_; }
   /// Stops modes where they are, by an impulse on them alone: all others keep their momentum, except for the
   /// impulses of the joints (adaptivity, eq. 5).
   /// @param held  made by `hold` without them

@@ -30,8 +30,7 @@ class FullSmallMotion {
   const std::vector<int>& modal_coordinates() const { return modal_; }
   const SmallMotion& motion() const { return motion_; }  ///< f×f
   const Eigen::MatrixXd& stiffness_rounding() const { return stiffness_rounding_; }
-  /// Rates of the independent coordinates, f. @param v  of the full model, nq
-  Eigen::VectorXd select_independent(const Eigen::VectorXd& v) const { return v(independent_); }
+  const std::vector<int>& independent() const { return independent_; }  ///< coordinates of the full model, f
   /// Place of a coordinate among the independent ones, −1 for a dependent one.
   Eigen::Index find_independent(int coordinate) const;
   /// Places among the independent coordinates of all but those of modes that are not active.

@@ -20,8 +20,7 @@ MissingAccelerationRecord::MissingAccelerationRecord(const ModeIndicator& indica
       markers_(std::move(points)),
       from_(from),
       to_(to),
-      forces_(static_cast<Eigen::Index>(indicator.num_modes())),
-      points_(markers_.size()) {}
+      sums_{.points = std::vector<Point>(markers_.size())} {}
 
 double MissingAccelerationRecord::find_angle(std::size_t point, const ModeIndicator& indicator,
                                              const Eigen::VectorXd& q) const {
@@ -31,20 +30,18 @@ double MissingAccelerationRecord::find_angle(std::size_t point, const ModeIndica
   return q[model.bodies[static_cast<std::size_t>(marker.body)].first_coordinate + 2];
 }
 
-void MissingAccelerationRecord::add(const ModeIndicator& indicator, const Eigen::VectorXd& q,
-                                    const Eigen::VectorXd& v) {
-  const double now = indicator.time(), step = has_begun_ ? now - time_ : 0.0;
-  for (std::size_t j = 0; j < indicator.num_modes(); ++j)
-    forces_[static_cast<Eigen::Index>(j)] = indicator.unbalanced_force(j);
-  motion_.update(step, forces_, v);
+void MissingAccelerationRecord::add(const ModeIndicator& indicator, const Eigen::VectorXd& forces,
+                                    const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  const double now = indicator.time(), step = sums_.has_begun ? now - sums_.time : 0.0;
+  motion_.update(step, forces, v);
   const double slack = kSameTime * std::abs(now);
   const bool is_judged = now >= from_ - slack && now <= to_ + slack;
   const double judged = is_judged ? std::min(step, std::max(0.0, now - from_)) : 0.0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    Point& point = points_[i];
+  for (std::size_t i = 0; i < sums_.points.size(); ++i) {
+    Point& point = sums_.points[i];
     // What is missing turns with the body.
     const double angle = find_angle(i, indicator, q);
-    if (!has_begun_) point.start_angle = angle;
+    if (!sums_.has_begun) point.start_angle = angle;
     const FrameRotation turned = FrameRotation::from_angle(angle - point.start_angle);
     const Eigen::Vector2d missing =
                               turned * motion_.accelerations().segment<2>(static_cast<Eigen::Index>(2 * i)),
@@ -58,29 +55,30 @@ void MissingAccelerationRecord::add(const ModeIndicator& indicator, const Eigen:
     point.peak = std::max(point.peak, present.norm());
     point.changed_peak = std::max(point.changed_peak, (present + missing).norm());
   }
-  length_ += judged;
-  time_ = now;
-  has_begun_ = true;
+  sums_.length += judged;
+  sums_.time = now;
+  sums_.has_begun = true;
+  const std::vector<bool>& active = indicator.active();
+  sums_.has_left_out |= std::find(active.begin(), active.end(), false) != active.end();
 }
 
 MissingAcceleration MissingAccelerationRecord::find_worst(const ModeIndicator& indicator) const {
   MissingAcceleration worst;
-  const std::vector<bool>& active = indicator.active();
-  if (std::find(active.begin(), active.end(), false) == active.end()) return worst;
+  if (!sums_.has_left_out) return worst;
   // Of a point that hardly moves beside the others, or of rest, there is no share.
   double largest_sum = 0.0, largest_peak = 0.0;
-  for (const Point& point : points_) {
+  for (const Point& point : sums_.points) {
     largest_sum = std::max(largest_sum, point.present_sum);
     largest_peak = std::max(largest_peak, point.peak);
   }
   const double least = kRest * indicator.sizes().least_acceleration();
-  const double least_sum = std::max(kHardly * kHardly * largest_sum, length_ * least * least);
+  const double least_sum = std::max(kHardly * kHardly * largest_sum, sums_.length * least * least);
   const double least_peak = std::max(kHardly * largest_peak, least);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Point& point = points_[i];
+  for (std::size_t i = 0; i < sums_.points.size(); ++i) {
+    const Point& point = sums_.points[i];
     MissingAcceleration found{.point = static_cast<int>(i),
                               .direction = point.missing_sum[1] > point.missing_sum[0] ? 1 : 0};
-    if (length_ > 0.0)
+    if (sums_.length > 0.0)
       found.rms_share = std::sqrt(point.missing_sum.sum() / std::max(point.present_sum, least_sum));
     found.peak_change = std::abs(point.changed_peak - point.peak) / std::max(point.peak, least_peak);
     if (worst.point < 0 || found.worst() > worst.worst()) worst = found;
@@ -89,9 +87,9 @@ MissingAcceleration MissingAccelerationRecord::find_worst(const ModeIndicator& i
 }
 
 void MissingAccelerationRecord::restore(support::ByteReader& bytes) {
-  const std::size_t num_points = points_.size();
+  const std::size_t num_points = sums_.points.size();
   transfer(bytes, *this);
-  if (points_.size() != num_points || !motion_.has_consistent_states()) throw support::DamagedBytes();
+  if (sums_.points.size() != num_points || !motion_.has_consistent_states()) throw support::DamagedBytes();
 }
 
 }  // namespace sprung::dynamics

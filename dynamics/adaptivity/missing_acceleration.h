@@ -17,8 +17,8 @@ struct MissingAcceleration {
   double worst() const { return rms_share > peak_change ? rms_share : peak_change; }
 };
 
-/// Records what all modes that a run with a fixed set leaves out would add to the acceleration of each point
-/// asked for (adaptivity, eq. 8). Checked by tests/verification/left_out_test.py
+/// Records what all modes that a run leaves out would add to the acceleration of each point asked for
+/// (adaptivity, eq. 8). Checked by tests/verification/left_out_test.py and left_out_changes_test.py
 class MissingAccelerationRecord {
  public:
   /// @param points    markers asked for, those of the indicator
@@ -26,30 +26,50 @@ class MissingAccelerationRecord {
   MissingAccelerationRecord(const ModeIndicator& indicator, std::vector<int> points,
                             const MissingStart& start, double from, double to);
 
-  /// Takes the indicator's last update into account. @param q, v  of the full model
-  void add(const ModeIndicator& indicator, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  /// Takes the indicator's last update into account. @param forces  that the run leaves unbalanced on each
+  /// mode [N/√kg]   @param q, v  of the full model
+  void add(const ModeIndicator& indicator, const Eigen::VectorXd& forces, const Eigen::VectorXd& q,
+           const Eigen::VectorXd& v);
+  /// As MissingMotion::add_rates.
+  void add_rates(const Eigen::VectorXd& change) { motion_.add_rates(change); }
   /// At the point for which the larger of both shares is the largest.
   MissingAcceleration find_worst(const ModeIndicator& indicator) const;
+
+  struct Point {
+    Eigen::Array2d missing = Eigen::Array2d::Zero();  ///< squares along x and y, at the last update [m²/s⁴]
+    double present = 0.0;                             ///< square, at the last update
+    Eigen::Array2d missing_sum = Eigen::Array2d::Zero();  ///< integrals of the squares over time [m²/s³]
+    double present_sum = 0.0;
+    double start_angle = 0.0;               ///< of its body
+    double peak = 0.0, changed_peak = 0.0;  ///< of the run, and with what is missing [m/s²]
+  };
+  struct Sums {
+    bool has_begun = false, has_left_out = false;
+    double time = 0.0, length = 0.0;  ///< of the last update; of all [s]
+    std::vector<Point> points;
+  };
+  /// All that an update changes.
+  struct State {
+    Sums sums;
+    MissingMotion::State motion;
+  };
+  /// @param[out] state  its memory is used again
+  void get_state(State& state) const { state.sums = sums_, state.motion = motion_.state(); }
+  /// Goes back to an earlier instant.
+  void set_state(const State& state) { sums_ = state.sums, motion_.set_state(state.motion); }
 
   void save(support::ByteWriter& bytes) const { transfer(bytes, *this); }
   void restore(support::ByteReader& bytes);  ///< @throws support::DamagedBytes
 
  private:
-  struct Point {
-    Eigen::Array2d missing = Eigen::Array2d::Zero();  // squares along x and y, at the last update [m²/s⁴]
-    double present = 0.0;                             // square, at the last update
-    Eigen::Array2d missing_sum = Eigen::Array2d::Zero();  // integrals of the squares over time [m²/s³]
-    double present_sum = 0.0;
-    double start_angle = 0.0;               // of its body
-    double peak = 0.0, changed_peak = 0.0;  // of the run, and with what is missing [m/s²]
-  };
   template <class Bytes, class Record>
   static void transfer(Bytes& bytes, Record& record) {
-    bytes.transfer(record.has_begun_);
+    bytes.transfer(record.sums_.has_begun);
+    bytes.transfer(record.sums_.has_left_out);
+    bytes.transfer(record.sums_.time);
+    bytes.transfer(record.sums_.length);
     MissingMotion::transfer(bytes, record.motion_);
-    bytes.transfer(record.time_);
-    bytes.transfer(record.length_);
-    bytes.transfer_items(record.points_, [&](auto& point) {
+    bytes.transfer_items(record.sums_.points, [&](auto& point) {
       bytes.transfer(point.start_angle);
       for (Eigen::Index i = 0; i < 2; ++i) {
         bytes.transfer(point.missing[i]);
@@ -65,10 +85,7 @@ class MissingAccelerationRecord {
   MissingMotion motion_;
   std::vector<int> markers_;
   double from_, to_;
-  Eigen::VectorXd forces_;  // on each mode
-  bool has_begun_ = false;
-  double time_ = 0.0, length_ = 0.0;  // of the last update; of all [s]
-  std::vector<Point> points_;
+  Sums sums_;
 };
 
 }  // namespace sprung::dynamics

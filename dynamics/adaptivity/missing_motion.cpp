@@ -62,7 +62,7 @@ std::array<Complex, 5> calc_step_weights(Complex rate, double h) {
 }  // namespace
 
 MissingMotion::MissingMotion(const FullSmallMotion& motion, const MissingStart& start)
-    : motion_(&motion), start_(start) {
+    : start_(start), coordinates_(motion.independent()) {
   const auto num_rows = static_cast<Eigen::Index>(2 * motion.num_points());
   accelerations_ = Eigen::VectorXd::Zero(num_rows);
   Eigen::MatrixXd of_points(num_rows, motion.motion().mass.rows());
@@ -91,6 +91,7 @@ void MissingMotion::take_lone_modes(const FullSmallMotion& motion) {
       of_points.block<2, 1>(static_cast<Eigen::Index>(2 * i), j) = motion.point_motion(i).col(coordinate);
   }
   start_.rates.resize(0);
+  coordinates_ = motion.modal_coordinates();
   if (!take(small, zero, Eigen::MatrixXd::Identity(num_modes, num_modes), of_points))
     throw support::NumericalError("the damped modes of small motion were not found");
 }
@@ -109,7 +110,7 @@ bool MissingMotion::take(const SmallMotion& small, const Eigen::MatrixXd& roundi
     parts_.push_back({.rate = std::conj(value), .column = i, .is_pair = is_pair});
     if (is_pair) ++i;
   }
-  states_.resize(parts_.size());
+  state_.terms.resize(parts_.size());
   Eigen::MatrixXd inputs = Eigen::MatrixXd::Zero(size, of_modes.rows());
   inputs.bottomRows(f) = form.V.transpose() * of_modes.transpose();
   forcing_ = vectors_.solve(inputs);
@@ -133,41 +134,47 @@ Complex MissingMotion::select(const Eigen::VectorXd& values, const Part& part) c
 void MissingMotion::begin(const Eigen::VectorXd& forces, const Eigen::VectorXd& v) {
   Eigen::VectorXd states = Eigen::VectorXd::Zero(driving_.size());
   if (start_.is_balanced) states = static_states_ * forces;
-  if (start_.rates.size() > 0) states += rate_states_ * motion_->select_independent(start_.rates - v);
   const Eigen::VectorXd places = vectors_.solve(states);
-  for (std::size_t i = 0; i < parts_.size(); ++i) states_[i].place = select(places, parts_[i]);
-  has_begun_ = true;
+  for (std::size_t i = 0; i < parts_.size(); ++i) state_.terms[i].place = select(places, parts_[i]);
+  if (start_.rates.size() > 0) add_rates(start_.rates - v);
+  state_.has_begun = true;
+}
+
+void MissingMotion::add_rates(const Eigen::VectorXd& change) {
+  const Eigen::VectorXd places = vectors_.solve(rate_states_ * change(coordinates_));
+  for (std::size_t i = 0; i < parts_.size(); ++i) state_.terms[i].place += select(places, parts_[i]);
 }
 
 void MissingMotion::update(double step, const Eigen::VectorXd& forces, const Eigen::VectorXd& v) {
-  if (!has_begun_) begin(forces, v);
+  if (!state_.has_begun) begin(forces, v);
   support::multiply(forcing_, forces.data(), driving_.data());
-  const bool knows_slopes = last_step_ > 0.0;
+  const double last_step = state_.last_step;
+  const bool knows_slopes = last_step > 0.0;
   if (step > 0.0 && std::abs(step - weighted_step_) > kEqualStep * step) {
     for (Part& part : parts_) part.weights = calc_step_weights(part.rate, step);
     weighted_step_ = step;
   }
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    State& state = states_[i];
+    Term& term = state_.terms[i];
     const Complex force = select(driving_, part);
     if (step > 0.0) {
       // The force as a cubic, without kinks between steps, which would excite stiff vibrations: its slope at
       // the end is that of the parabola through the last three values.
-      const Complex chord = (force - state.force) / step;
-      const Complex begin = knows_slopes ? state.slope : chord;
-      const Complex end = knows_slopes ? chord + step / (step + last_step_) * (chord - state.chord) : chord;
+      const Complex chord = (force - term.force) / step;
+      const Complex begin = knows_slopes ? term.slope : chord;
+      const Complex end = knows_slopes ? chord + step / (step + last_step) * (chord - term.chord) : chord;
       const auto& [of_place, of_force, of_begin, of_chord, of_end] = part.weights;
-      state.place = times(of_place, state.place) + times(of_force, state.force) + times(of_begin, begin) +
-                    times(of_chord, chord) + times(of_end, end);
-      state.chord = chord;
-      state.slope = end;
+      term.place = times(of_place, term.place) + times(of_force, term.force) + times(of_begin, begin) +
+                   times(of_chord, chord) + times(of_end, end);
+      term.chord = chord;
+      term.slope = end;
     }
-    state.force = force;
-    places_and_forces_[part.column] = state.place.real();
-    if (part.is_pair) places_and_forces_[part.column + 1] = state.place.imag();
+    term.force = force;
+    places_and_forces_[part.column] = term.place.real();
+    if (part.is_pair) places_and_forces_[part.column + 1] = term.place.imag();
   }
-  last_step_ = step;
+  state_.last_step = step;
   places_and_forces_.tail(forces.size()) = forces;
   support::multiply(to_accelerations_, places_and_forces_.data(), accelerations_.data());
 }

@@ -128,21 +128,16 @@ std::vector<int> ModeAdaptation::find_stoppable(const std::vector<int>& idle,
   return stoppable;
 }
 
-std::size_t ModeAdaptation::mode_of(int coordinate) const {
-  const std::vector<int>& modal = indicator_.modal_coordinates();
-  return static_cast<std::size_t>(std::lower_bound(modal.begin(), modal.end(), coordinate) - modal.begin());
-}
-
 ModeShare ModeAdaptation::share_of(int coordinate, const std::vector<ModeAmplitude>& largest) const {
-  const std::size_t mode = mode_of(coordinate);
+  const std::size_t mode = indicator_.mode_of(coordinate);
   return indicator_.calc_share(mode, largest[mode]);
 }
 
 double ModeAdaptation::held_force_of(int coordinate) const {
-  return indicator_.held_force(mode_of(coordinate));
+  return indicator_.held_force(indicator_.mode_of(coordinate));
 }
 double ModeAdaptation::frequency_of(int coordinate) const {
-  return indicator_.calc_frequency(mode_of(coordinate));
+  return indicator_.calc_frequency(indicator_.mode_of(coordinate));
 }
 
 void ModeAdaptation::activate(const std::vector<int>& coordinates) {
@@ -161,7 +156,7 @@ void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
   last_change_ = indicator_.time();
   for (const int i : coordinates) {
     active_[static_cast<std::size_t>(i)] = false;
-    windows_[mode_of(i)].reset();
+    windows_[indicator_.mode_of(i)].reset();
   }
   indicator_.set_active(active_);
 }

@@ -26,7 +26,8 @@ struct AdaptivityOptions {
   std::vector<bool> active;  ///< at the start, for each coordinate of `full`
   std::vector<int> points;   ///< markers whose motion is asked for
   bool continues = false;    ///< whether the start is the end of an earlier run
-  MissingStart missing;      ///< how a run with fixed modes starts beside the full model
+  /// How the run starts beside the full model, where modes do not change. Else both start alike.
+  MissingStart missing;
   double judged_from = 0.0,
          judged_to = std::numeric_limits<double>::infinity();  ///< where its error counts [s]
   bool changes = true;  ///< false: modes stay as they are, the indicator alone is followed
@@ -93,7 +94,6 @@ class ModeAdaptation {
  private:
   template <class Bytes, class Adaptation>
   static void transfer(Bytes& bytes, Adaptation& adaptation);
-  std::size_t mode_of(int coordinate) const;
 
   AdaptivityOptions options_;
   ModeIndicator indicator_;

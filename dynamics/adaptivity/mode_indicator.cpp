@@ -28,6 +28,11 @@ void ModeIndicator::update_left_out() {
   }
 }
 
+std::size_t ModeIndicator::mode_of(int coordinate) const {
+  const std::vector<int>& modal = modal_coordinates();
+  return static_cast<std::size_t>(std::lower_bound(modal.begin(), modal.end(), coordinate) - modal.begin());
+}
+
 void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
   for (std::size_t j = 0; j < active_.size(); ++j) {
     const bool now = is_active_coordinate[static_cast<std::size_t>(modal_coordinates()[j])];

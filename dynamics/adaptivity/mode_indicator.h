@@ -38,6 +38,7 @@ class ModeIndicator {
   /// Modal coordinates of `full`, ascending; all arrays below are in this order.
   const std::vector<int>& modal_coordinates() const { return motion_.modal_coordinates(); }
   std::size_t num_modes() const { return active_.size(); }
+  std::size_t mode_of(int coordinate) const;  ///< its place in them
 
   /// Sets the modes that are active from the last update on; those that stop being so begin at rest where
   /// they are held. Then something else gives way to the others: they keep their vibration about the place

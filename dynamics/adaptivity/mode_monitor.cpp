@@ -12,23 +12,53 @@ constexpr double kMostParts = 8.0;    // of a step, with an update at the end of
 
 }  // namespace
 
-ModeMonitor::ModeMonitor(const AdaptivityOptions& options, const State& start)
+ModeMonitor::ModeMonitor(const AdaptivityOptions& options, const dynamics::State& start)
     : modes_(options, start),
       motion_(*options.full, start),
       record_(modes_.indicator(), start.time),
+      missing_(modes_.indicator(), options.points,
+               options.changes ? MissingStart{.is_balanced = false} : options.missing, options.judged_from,
+               options.judged_to),
       rates_(start.v),
-      largest_(modes_.indicator().num_modes()) {
-  if (!options.changes) {
-    missing_.emplace(modes_.indicator(), options.points, options.missing, options.judged_from,
-                     options.judged_to);
-  }
-}
+      unbalanced_(static_cast<Eigen::Index>(modes_.indicator().num_modes())),
+      largest_(modes_.indicator().num_modes()) {}
 
 void ModeMonitor::update(double time, const HeldModes& held, const ConstrainedEquations& equations) {
   motion_.take(held, equations);
   modes_.update(time, equations, motion_.q(), motion_.v(), motion_.v_dot());
   rates_ = motion_.v();
-  if (missing_) missing_->add(modes_.indicator(), motion_.q(), motion_.v());
+  update_unbalanced(time);
+  missing_.add(modes_.indicator(), unbalanced_, motion_.q(), motion_.v());
+}
+
+// The equations of the run have −r of the modes that joined as a force that fades; those of the full model do
+// not.
+void ModeMonitor::update_unbalanced(double time) {
+  const ModeIndicator& indicator = modes_.indicator();
+  for (std::size_t j = 0; j < indicator.num_modes(); ++j)
+    unbalanced_[static_cast<Eigen::Index>(j)] = indicator.unbalanced_force(j);
+  for (const FadingForce& fading : motion_.fading()) {
+    const std::size_t mode = indicator.mode_of(fading.coordinate);
+    if (indicator.active()[mode]) unbalanced_[static_cast<Eigen::Index>(mode)] -= fading.value(time);
+  }
+}
+
+double ModeMonitor::let_leave(const std::vector<int>& coordinates, const std::vector<int>& branches) {
+  modes_.deactivate(coordinates);
+  const double lost =
+      motion_.stop(coordinates, motion_.hold(modes_.active()), modes_.indicator().time(), branches);
+  missing_.add_rates(rates_ - motion_.v());
+  return lost;
+}
+
+void ModeMonitor::get_state(State& state) const {
+  modes_.get_state(state.modes);
+  missing_.get_state(state.missing);
+}
+
+void ModeMonitor::set_state(const State& state) {
+  modes_.set_state(state.modes);
+  missing_.set_state(state.missing);
 }
 
 void ModeMonitor::begin_step() {
@@ -59,14 +89,14 @@ void ModeMonitor::save(support::ByteWriter& bytes) const {
   modes_.save(bytes);
   motion_.save(bytes);
   record_.save(bytes);
-  if (missing_) missing_->save(bytes);
+  missing_.save(bytes);
 }
 
 void ModeMonitor::restore(support::ByteReader& bytes) {
   modes_.restore(bytes);
   motion_.restore(bytes);
   record_.restore(bytes, modes_.indicator());
-  if (missing_) missing_->restore(bytes);
+  missing_.restore(bytes);
 }
 
 void ModeMonitor::update_largest() {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "dynamics/adaptivity/full_motion.h"
@@ -16,15 +15,14 @@ namespace sprung::dynamics {
 class ModeMonitor {
  public:
   /// @param start  in coordinates of `options.full`
-  ModeMonitor(const AdaptivityOptions& options, const State& start);
+  ModeMonitor(const AdaptivityOptions& options, const dynamics::State& start);
 
   ModeAdaptation& modes() { return modes_; }
   const ModeAdaptation& modes() const { return modes_; }
   FullMotion& motion() { return motion_; }  ///< at the last update, or where it has been taken since
   const Eigen::VectorXd& rates() const { return rates_; }  ///< v of the full model at the last update
   WorstNeglect find_worst() const { return record_.find_worst(modes_.indicator()); }
-  /// Only where the modes do not change; else none is missing for long.
-  MissingAcceleration find_missing_acceleration() const { return missing_->find_worst(modes_.indicator()); }
+  MissingAcceleration find_missing_acceleration() const { return missing_.find_worst(modes_.indicator()); }
 
   /// Updates at a time at which the equations are evaluated, up to accelerations.
   /// @param held  where the coordinates of the model that is run are in the full one
@@ -40,6 +38,18 @@ class ModeMonitor {
   /// Records the step, which is final.
   void accept_step() { record_.add_step(modes_.indicator(), largest_); }
 
+  /// Stops modes where they are at the last update, by FullMotion::stop, and leaves them out.
+  /// @return energy lost by it [J]
+  double let_leave(const std::vector<int>& coordinates, const std::vector<int>& branches);
+
+  /// All that an update changes but the largest sizes.
+  struct State {
+    ModeAdaptation::State modes;
+    MissingAccelerationRecord::State missing;
+  };
+  void get_state(State& state) const;  ///< @param[out] state  its memory is used again
+  void set_state(const State& state);  ///< goes back to an earlier instant, with the same active modes
+
   /// Everything that the run has changed here, at the end of a step, as bytes and back into a monitor with
   /// the same start. An `update` at the same time has to follow.
   void save(support::ByteWriter& bytes) const;
@@ -47,12 +57,13 @@ class ModeMonitor {
 
  private:
   void update_largest();
+  void update_unbalanced(double time);
 
   ModeAdaptation modes_;
   FullMotion motion_;
   NeglectRecord record_;
-  std::optional<MissingAccelerationRecord> missing_;  // where the modes do not change
-  Eigen::VectorXd rates_;
+  MissingAccelerationRecord missing_;
+  Eigen::VectorXd rates_, unbalanced_;  // unbalanced forces on each mode
   std::vector<ModeAmplitude> largest_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "dynamics/output/section_report.h"
+#include "dynamics/statistics/missing_modes_warning.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {

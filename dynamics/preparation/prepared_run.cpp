@@ -303,9 +303,9 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
     if (full->num_coordinates == prepared.model.num_coordinates) return std::nullopt;
     options.full = &*full;
     options.missing = find_missing_start(prepared, *full);
-    options.judged_from = prepared.run.statistics_from;
-    options.judged_to = prepared.run.statistics_to;
   }
+  options.judged_from = prepared.run.statistics_from;
+  options.judged_to = prepared.run.statistics_to;
   options.continues = !prepared.run.continue_from.empty();
   options.active.assign(static_cast<std::size_t>(options.full->num_coordinates), true);
   for (const Body& body : options.full->bodies) {

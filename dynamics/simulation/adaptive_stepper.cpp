@@ -108,7 +108,7 @@ Integrator::StepResult AdaptiveStepper::step(double longest_step) {
 std::optional<Integrator::StepResult> AdaptiveStepper::attempt_step(double longest_step) {
   step_start_.time = time();
   step_start_.rates = monitor_.rates();
-  modes().get_state(step_start_.modes);
+  monitor_.get_state(step_start_.monitor);
   monitor_.begin_step();
   const Integrator::StepResult result = segment_->stepper->step(longest_step);
   const bool has_missed = monitor_.follow_step(*segment_->stepper, segment_->held);
@@ -129,7 +129,7 @@ std::optional<Integrator::StepResult> AdaptiveStepper::attempt_step(double longe
 
 void AdaptiveStepper::go_back_to_start() {
   monitor_.motion().go_to(step_start_.q, step_start_.v);
-  monitor_.modes().set_state(step_start_.modes);
+  monitor_.set_state(step_start_.monitor);
 }
 
 // Before modes join, the run continues without them for as long as they would stay. So all that will be
@@ -202,16 +202,15 @@ void AdaptiveStepper::let_idle_modes_leave() {
   FullMotion& motion = monitor_.motion();
   motion.take(segment_->held, equations());
   const std::vector<int> leaving = modes().find_stoppable(idle_, motion.v());
-  monitor_.modes().set_state(step_start_.modes);
+  monitor_.set_state(step_start_.monitor);
   monitor_.update(rest, segment_->held, equations());
   if (leaving.empty()) {
     segment_->stepper->resume(rest, end_time_);
     return;
   }
-  monitor_.modes().deactivate(leaving);
   EnergyFlow flow = energy_flow();
   const std::vector<int> branches = piece().branches();
-  const double lost = motion.stop(leaving, motion.hold(modes().active()), rest, branches);
+  const double lost = monitor_.let_leave(leaving, branches);
   flow.dissipated += lost;
   for (const int coordinate : leaving) {
     listener_.on_change(rest, coordinate,

@@ -63,7 +63,7 @@ class AdaptiveStepper final : public SystemStepper {
   // does.
   struct StepStart {
     double time = 0.0;
-    ModeAdaptation::State modes;
+    ModeMonitor::State monitor;
     Eigen::VectorXd rates;  // as ModeMonitor::rates
     Eigen::VectorXd q, v;   // of the full model
     EnergyFlow flow;

@@ -129,8 +129,7 @@ class TransientRun {
     if (monitor_) {
       statistics.mean_active_modes = monitor_->modes().num_active_modes();
       statistics.worst_neglect = monitor_->find_worst();
-      if (!options_.adaptivity->changes)
-        statistics.missing_acceleration = monitor_->find_missing_acceleration();
+      statistics.missing_acceleration = monitor_->find_missing_acceleration();
     }
     if (adaptive_) {
       statistics.mode_changes += adaptive_->num_changes();

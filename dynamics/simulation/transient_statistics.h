@@ -13,7 +13,7 @@ struct TransientStatistics {
   long mode_changes = 0;
   double mean_active_modes = 0.0;            ///< over time
   WorstNeglect worst_neglect;                ///< where adaptivity was asked for
-  MissingAcceleration missing_acceleration;  ///< where a fixed set of modes leaves some out
+  MissingAcceleration missing_acceleration;  ///< where modes were left out
   bool completed = false;                    ///< false: stopped by on_step
 };
 

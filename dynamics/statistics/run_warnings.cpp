@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/element_input/point_reference.h"
 #include "dynamics/section_loads/body_remarks.h"
+#include "dynamics/statistics/missing_modes_warning.h"
 
 namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kTellable = 1e-3;           // share of a single mode
-constexpr double kTooMuchLeftOut = 0.05;     // share of the largest deflection or acceleration
 constexpr double kAlarmingClosure = 1e-3;    // far above the closure at any useful tolerance
 constexpr double kClosed = 1e-6;             // gap of a joint, of the largest movement
 constexpr double kFarMoved = 0.05;           // of the length scale, by closing the joints
@@ -24,8 +22,6 @@ constexpr double kTooRough = 0.4;            // SampleDensity::roughness: about 
 constexpr double kMissedPeak = 0.1;          // SampleDensity::missed
 constexpr double kUnconverged = 0.1;         // estimated error of an acceleration, of its r.m.s.
 constexpr double kSmallAcceleration = 1e-3;  // of the natural acceleration: smaller ones are not judged
-constexpr const char* kSummary = "summary";  // kinds of numbers that a warning concerns
-constexpr const char* kModes = "modes";
 
 void warn_of_energy(const RunStatistics& statistics, std::vector<RunWarning>& warnings) {
   if (statistics.energy_closure() <= kAlarmingClosure) return;
@@ -39,81 +35,10 @@ void warn_of_energy(const RunStatistics& statistics, std::vector<RunWarning>& wa
        .fails = true});
 }
 
-std::vector<std::string> list_points_of(const std::string& body, const RunStatistics& statistics) {
-  std::vector<std::string> points;
-  for (const PointStatistics& point : statistics.point_statistics()) {
-    if (body_of_point(point.point) == body) points.push_back(point.point);
-  }
-  return points;
-}
-
-// A body's rows in the summary: those of its points, and those of its section loads.
-std::vector<std::string> list_rows_of(const std::string& body, const RunStatistics& statistics) {
-  std::vector<std::string> rows = list_points_of(body, statistics);
-  rows.push_back(body);
-  return rows;
-}
-
-// Of single modes by the forces on them: nothing where all do little by themselves, as where only their start
-// differs.
-std::string describe_largest(const WorstNeglect& worst, const Model& full) {
-  if (worst.share() < kTellable) return "";
-  const auto describe = [&](const LargestShare& largest, const char* of) {
-    return fmt::format("{:.3g} % of the largest {} (at t = {:.3g} s)", 100.0 * largest.share, of,
-                       largest.time);
-  };
-  const auto name = [&](const LargestShare& largest) {
-    return largest.coordinate < 0 ? "each mode" : full.coordinate_name(largest.coordinate);
-  };
-  const std::string deflection = describe(worst.deflection, "deflection"),
-                    acceleration = describe(worst.acceleration, "acceleration of the points asked for");
-  if (worst.deflection.coordinate == worst.acceleration.coordinate)
-    return fmt::format("{}, which was left out, would have reached {} and {}; ", name(worst.deflection),
-                       deflection, acceleration);
-  return fmt::format("{}, which was left out, would have reached {}, and {} {}; ", name(worst.deflection),
-                     deflection, name(worst.acceleration), acceleration);
-}
-
-std::string describe_missing(const MissingAcceleration& missing, const AdaptivityOptions& adaptivity) {
-  if (missing.point < 0) return "";
-  return fmt::format(
-      "all modes left out together are {:.3g} % of the r.m.s. acceleration of {}, most of it along {}, and "
-      "would change its largest by {:.3g} %{}; ",
-      100.0 * missing.rms_share, name_missing_point(adaptivity, missing), missing.direction == 0 ? "x" : "y",
-      100.0 * missing.peak_change, adaptivity.continues ? kHistoryUnknown : "");
-}
-
 void add_remarks(const std::vector<BodyRemark>& remarks, const RunStatistics& statistics,
                  std::vector<RunWarning>& warnings) {
   for (const BodyRemark& remark : remarks)
     warnings.push_back({kSummary, list_rows_of(remark.body, statistics), remark.text});
-}
-
-void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
-                           const TransientStatistics& transient, const AdaptivityOptions& adaptivity,
-                           std::vector<RunWarning>& warnings) {
-  const WorstNeglect& worst = transient.worst_neglect;
-  const MissingAcceleration& missing = transient.missing_acceleration;
-  const bool is_deflection = worst.deflection.share > kTooMuchLeftOut;
-  const bool is_acceleration = missing.point >= 0 && missing.worst() > kTooMuchLeftOut;
-  if (adaptivity.changes || worst.share() == 0.0 || (!is_deflection && !is_acceleration)) return;
-  const bool is_stiffened = std::any_of(model.bodies.begin(), model.bodies.end(),
-                                        [](const Body& body) { return body.stiffening.has_value(); });
-  const std::string text =
-      fmt::format("modes are missing: {}{}take more modes{}", describe_largest(worst, *adaptivity.full),
-                  describe_missing(missing, adaptivity),
-                  is_stiffened ? "" : ", or [adaptivity] enabled = true");  // together they are refused
-  const int coordinate = is_deflection || worst.acceleration.coordinate < 0 ? worst.deflection.coordinate
-                                                                            : worst.acceleration.coordinate;
-  const auto place = static_cast<std::size_t>(adaptivity.full->body_coordinate(coordinate).body);
-  const std::string& body = adaptivity.full->bodies[place].name;
-  std::vector<std::string> rows = list_rows_of(body, statistics);
-  if (missing.point >= 0) {
-    const std::string named = name_missing_point(adaptivity, missing);
-    if (std::find(rows.begin(), rows.end(), named) == rows.end()) rows.push_back(named);
-  }
-  warnings.push_back({kSummary, rows, text});
-  warnings.push_back({kModes, {body}, text});
 }
 
 // Accelerations below this count as this: a share of gravity, at least of one length scale per s² [m/s²].
@@ -236,11 +161,6 @@ std::string remove_folders(const std::string& text) {
 
 }  // namespace
 
-std::string name_missing_point(const AdaptivityOptions& adaptivity, const MissingAcceleration& missing) {
-  const int marker = adaptivity.points[static_cast<std::size_t>(missing.point)];
-  return adaptivity.full->markers[static_cast<std::size_t>(marker)].name;
-}
-
 bool goes_to_stderr(const RunWarning& warning) {
   return warning.fails || warning.of == std::vector<std::string>{std::string(kComputation)};
 }
@@ -303,7 +223,7 @@ std::vector<RunWarning> list_run_warnings(const Vehicle& vehicle, const Model& m
   warn_of_energy(statistics, warnings);
   warn_of_unconverged_accelerations(model, statistics, warnings);
   if (adaptivity != nullptr && judged.points) {
-    warn_of_missing_modes(model, statistics, transient, *adaptivity, warnings);
+    add_missing_modes_warning(model, statistics, transient, *adaptivity, warnings);
   }
   warn_of_coarse_outputs(model, statistics, warnings);
   if (judged.moments) warn_of_coarse_moments(statistics, warnings);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "dynamics/adaptivity/mode_adaptation.h"
@@ -9,21 +8,11 @@
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/simulation/transient.h"
 #include "dynamics/statistics/run_statistics.h"
+#include "dynamics/statistics/run_warning.h"
 #include "tools/support/hdf5/hdf5_file.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
-
-/// What a warning is of that concerns all numbers of a run.
-inline constexpr std::string_view kComputation = "computation";
-
-/// A doubt about numbers of a run.
-struct RunWarning {
-  std::string concerns;         ///< which numbers: "summary", "modes"
-  std::vector<std::string> of;  ///< their points or bodies, or "computation"
-  std::string text;
-  bool fails = false;  ///< it is a check of the run that failed: exit code 1
-};
 
 /// Whether it is printed on stderr, instead of below the tables: it concerns all numbers, or the run fails.
 bool goes_to_stderr(const RunWarning& warning);
@@ -49,11 +38,6 @@ std::vector<RunWarning> list_file_warnings(const std::vector<std::string>& remar
 
 /// What they concern, of what, and their texts.
 support::Json make_warnings_json(const std::vector<RunWarning>& warnings);
-
-/// The point at which modes left out are missing the most.
-std::string name_missing_point(const AdaptivityOptions& adaptivity, const MissingAcceleration& missing);
-/// Follows what modes left out together would add to a run that continues another.
-inline constexpr const char* kHistoryUnknown = " (what they did before its start is not known)";
 
 /// Writes /warnings (dynamics/output/results.md); of the places of files their names alone.
 void write_warnings(support::Hdf5Writer& file, const std::vector<RunWarning>& warnings);

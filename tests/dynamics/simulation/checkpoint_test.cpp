@@ -76,7 +76,8 @@ std::string counts_of(const TransientStatistics& s) {
   }
   for (const double value :
        {s.stepper.velocity_violation, s.mean_active_modes, s.worst_neglect.deflection.time,
-        s.worst_neglect.deflection.share, s.worst_neglect.acceleration.share}) {
+        s.worst_neglect.deflection.share, s.worst_neglect.acceleration.share,
+        s.missing_acceleration.rms_share, s.missing_acceleration.peak_change}) {
     bytes.transfer(value);
   }
   return bytes.bytes();
