@@ -1,6 +1,7 @@
 #include "dynamics/mode_choice/basis_choice.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,13 @@ struct LeftOut {
   std::map<std::size_t, NeglectedShares::Worst> joint;  // by number of clusters, where it was computed
 };
 
+Set join_first(std::size_t count, const std::vector<Set>& clusters, const std::vector<std::size_t>& order) {
+  Set set;
+  for (std::size_t i = 0; i < count; ++i)
+    set.insert(set.end(), clusters[order[i]].begin(), clusters[order[i]].end());
+  return set;
+}
+
 // Starts from the number for which the root of the sum of squared shares reaches the tolerance. Then brackets
 // the number by growing steps and bisects.
 LeftOut leave_out(const NeglectMeasure& measure, const std::vector<Set>& clusters,
@@ -91,10 +99,7 @@ LeftOut leave_out(const NeglectMeasure& measure, const std::vector<Set>& cluster
   std::size_t too_many = most + 1, step = 1;
   while (too_many - found.count > 1) {
     if (guess <= found.count || guess >= too_many) guess = (found.count + too_many) / 2;
-    Set set;
-    for (std::size_t i = 0; i < guess; ++i)
-      set.insert(set.end(), clusters[order[i]].begin(), clusters[order[i]].end());
-    const NeglectedShares::Worst worst = measure.measure(set).worst();
+    const NeglectedShares::Worst worst = measure.measure(join_first(guess, clusters, order)).worst();
     found.joint[guess] = worst;
     if (worst.value < tolerance) {
       found.count = guess;
@@ -227,6 +232,27 @@ void remark_lifting(const LinearVehicle& vehicle, const WatchedQuantities& watch
                   wheels));
 }
 
+// Remarks what forces that are not linear would excite of the modes left out, where it is more than they may
+// have.
+void remark_nonlinear_forces(const LinearVehicle& vehicle, const WatchedQuantities& watched,
+                             const NeglectMeasure& measure, const Set& left_out, BasisChoice& choice) {
+  if (left_out.empty() || !measure.is_excited()) return;
+  const NonlinearForces forces = measure.calc_nonlinear_forces();
+  const NeglectedShares::Worst worst = measure.measure_beyond_linear(left_out, forces).worst();
+  if (worst.value >= choice.tolerance) {
+    choice.remarks.push_back(fmt::format(
+        "the prediction is linear: what the forces of '{}' are beyond that makes the modes left "
+        "out {} of the {}; take a smaller tolerance, and compare the run with one with more modes",
+        fmt::join(forces.elements, "', '"), percent(worst.value), describe(worst, watched)));
+  }
+  const std::vector<std::string> unknown = list_unpredictable(vehicle);
+  if (unknown.empty()) return;
+  choice.remarks.push_back(fmt::format(
+      "the prediction takes what '{}' does by friction or orifices as at rest: compare the run with one "
+      "with more modes",
+      fmt::join(unknown, "', '")));
+}
+
 }  // namespace
 
 std::size_t BasisChoice::num_kept() const {
@@ -271,6 +297,7 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
     const NeglectedShares::Worst together = left_out.joint.at(left_out.count);
     choice.neglected = together.value;
     choice.neglected_of = describe(together, watched);
+    remark_nonlinear_forces(vehicle, watched, measure, join_first(left_out.count, clusters, order), choice);
   }
   for (std::size_t place = 0; place < order.size(); ++place) {
     const Set& cluster = clusters[order[place]];

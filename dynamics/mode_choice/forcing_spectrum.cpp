@@ -55,16 +55,6 @@ void smooth_jumps(const std::vector<ForcingJump>& jumps, double duration, double
   }
 }
 
-// Fourier coefficients of lines 1 … m.
-Eigen::VectorXcd transform(const std::vector<double>& samples, Eigen::Index m) {
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  std::vector<std::complex<double>> lines;
-  fft.fwd(lines, samples);
-  const Eigen::Map<const Eigen::VectorXcd> all(lines.data(), static_cast<Eigen::Index>(lines.size()));
-  return all.segment(1, m) / static_cast<double>(samples.size());
-}
-
 bool changes_with_time(const ForceElement& force) {
   const std::vector<const TimeFunction*> functions = force.time_functions();
   return std::any_of(functions.begin(), functions.end(),
@@ -161,7 +151,7 @@ ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownF
   spectrum.road = Eigen::VectorXcd::Zero(m);
   if (forcing.road != nullptr && forcing.speed > 0.0) {
     const auto height = [&](double t) { return forcing.road->height(forcing.speed * t); };
-    spectrum.road = transform(sample(height, forcing.duration, spectrum.period, n), m);
+    spectrum.road = calc_lines(sample(height, forcing.duration, spectrum.period, n), m);
   }
   TimedForces timed(vehicle);
   std::vector<Eigen::VectorXd> gains;
@@ -177,7 +167,7 @@ ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownF
     if (std::all_of(samples.begin(), samples.end(), [](double value) { return value == 0.0; })) continue;
     gains.emplace_back(
         calc_marker_jacobian(vehicle.equations().terms(), one.marker).row(one.component).transpose());
-    applied.emplace_back(transform(samples, m).transpose());
+    applied.emplace_back(calc_lines(samples, m).transpose());
     spectrum.loads.push_back(3 * one.marker + one.component);
   }
   const auto u = static_cast<Eigen::Index>(gains.size());
@@ -217,6 +207,15 @@ double calc_forcing_duration(const LinearVehicle& vehicle, const KnownForcing& f
   double duration = (std::max(end, 0.0) + farthest - nearest) / forcing.speed;
   if (road->height(end) != road->height(0.0)) duration += settling;
   return std::clamp(duration, shortest, forcing.duration);
+}
+
+Eigen::VectorXcd calc_lines(const std::vector<double>& samples, Eigen::Index m) {
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<std::complex<double>> lines;
+  fft.fwd(lines, samples);
+  const Eigen::Map<const Eigen::VectorXcd> all(lines.data(), static_cast<Eigen::Index>(lines.size()));
+  return all.segment(1, m) / static_cast<double>(samples.size());
 }
 
 Eigen::VectorXd calc_history(const Eigen::Ref<const Eigen::RowVectorXcd>& lines, Eigen::Index n) {

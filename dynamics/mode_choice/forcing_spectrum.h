@@ -50,6 +50,10 @@ double calc_forcing_duration(const LinearVehicle& vehicle, const KnownForcing& f
 /// `longest` [s].
 double calc_settling_time(const LinearVehicle& vehicle, double longest);
 
+/// Fourier coefficients of lines 1 … m of a function with these values over its period.
+/// @param samples  n > 2m
+Eigen::VectorXcd calc_lines(const std::vector<double>& samples, Eigen::Index m);
+
 /// Values of a Fourier series over its period, relative to the value at the start.
 /// @param lines  coefficients of lines 1 … m
 /// @param n      number of times, a power of two > 2m

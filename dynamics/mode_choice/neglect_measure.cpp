@@ -200,10 +200,14 @@ Eigen::VectorXd NeglectMeasure::calc_static_shares(const std::vector<int>& set) 
   return calc_shares(sizes, weight_);
 }
 
+std::vector<int> NeglectMeasure::find_coordinates(const std::vector<int>& set) const {
+  std::vector<int> coordinates;
+  for (const int mode : set) coordinates.push_back(coordinates_[static_cast<std::size_t>(mode)]);
+  return coordinates;
+}
+
 NeglectedShares NeglectMeasure::measure(const std::vector<int>& set) const {
-  std::vector<int> held;
-  for (const int mode : set) held.push_back(coordinates_[static_cast<std::size_t>(mode)]);
-  const HarmonicSweep sweep(make_held_system(*vehicle_, watched_->outputs, held));
+  const HarmonicSweep sweep(make_held_system(*vehicle_, watched_->outputs, find_coordinates(set)));
   const QuantitySizes sizes = calc_sizes(*watched_, sweep.respond(omega_, forces_) - outputs_, omega_);
   return {calc_shares(sizes.rms, rms_), calc_shares(sizes.peak, peak_), calc_static_shares(set)};
 }
@@ -218,6 +222,24 @@ std::vector<NeglectedShares> NeglectMeasure::measure_alone(const std::vector<std
         {calc_shares(sizes[i].rms, rms_), calc_shares(sizes[i].peak, peak_), calc_static_shares(sets[i])});
   }
   return shares;
+}
+
+NonlinearForces NeglectMeasure::calc_nonlinear_forces() const {
+  const double wanted = kHighest * calc_highest_frequency(*vehicle_) * forcing_.period;
+  const auto lines =
+      std::min(static_cast<Eigen::Index>(std::min(wanted, static_cast<double>(kMostLines))), kMostLines);
+  return dynamics::calc_nonlinear_forces(*vehicle_, omega_, forces_, std::max(lines, omega_.size()));
+}
+
+NeglectedShares NeglectMeasure::measure_beyond_linear(const std::vector<int>& set,
+                                                      const NonlinearForces& forces) const {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(watched_->size()));
+  if (forces.elements.empty()) return {none, none, none};
+  const HarmonicSweep sweep(make_held_system(*vehicle_, watched_->outputs, find_coordinates(set)));
+  const RowsXcd change =
+      sweep.respond(forces.omega, forces.forces) - sweep_.respond(forces.omega, forces.forces);
+  const QuantitySizes sizes = calc_sizes(*watched_, change, forces.omega);
+  return {calc_shares(sizes.rms, rms_), calc_shares(sizes.peak, peak_), none};
 }
 
 double NeglectMeasure::find_lowest(int row) const {

@@ -8,6 +8,7 @@
 #include "dynamics/mode_choice/forcing_spectrum.h"
 #include "dynamics/mode_choice/harmonic_inputs.h"
 #include "dynamics/mode_choice/held_response.h"
+#include "dynamics/mode_choice/nonlinear_forces.h"
 #include "dynamics/mode_choice/quantity_sizes.h"
 #include "dynamics/mode_choice/watched_quantities.h"
 
@@ -46,6 +47,12 @@ class NeglectMeasure {
   /// each kind with the largest r.m.s. share; those of all others are 0.
   std::vector<NeglectedShares> measure_alone(const std::vector<std::vector<int>>& sets) const;
 
+  /// Shares of what one set would add to the motion under the forces of elements beyond their linear laws
+  /// (mode_choice, eq. 7). All are 0 without such forces.
+  /// @param set  positions among the n modes
+  NeglectedShares measure_beyond_linear(const std::vector<int>& set, const NonlinearForces& forces) const;
+  NonlinearForces calc_nonlinear_forces() const;  ///< up to the highest frequencies of the vehicle
+
   /// The lowest value of an output of the vehicle with all modes, relative to the equilibrium.
   double find_lowest(int row) const;
   /// Watched outputs on a road wave of 1 m under the foremost wheel, at k lines.
@@ -65,6 +72,7 @@ class NeglectMeasure {
   double find_highest_frequency(const KnownForcing& forcing, double settling, double cut);
   void calc_references();
   HeldResponse calc_static_response() const;
+  std::vector<int> find_coordinates(const std::vector<int>& set) const;
   Eigen::VectorXd calc_static_shares(const std::vector<int>& set) const;
 
   const LinearVehicle* vehicle_;
