@@ -63,6 +63,6 @@ std::string calc_file_hash(const std::filesystem::path& path);
 
 /// Increased whenever the same design gives another file than before: other numbers, or a new dataset.
 /// `build` makes files of an earlier revision again; it takes all others as up to date.
-inline constexpr std::int64_t kAlgorithmRevision = 10;
+inline constexpr std::int64_t kAlgorithmRevision = 11;
 
 }  // namespace sprung::reduce

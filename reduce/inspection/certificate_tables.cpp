@@ -80,9 +80,10 @@ std::string format_certificate_line(const Superelement& s) {
   const Certificate& certificate = *s.certificate;
   const InterfaceError& worst = certificate.interface[static_cast<std::size_t>(certificate.find_worst())];
   if (certificate.is_bounded()) {
-    return fmt::format("interface flexibility within {} % up to {:g} Hz (proved); worst: {} at {:.3g} Hz",
-                       format_share(worst.error, certificate.rounding_floor), certificate.highest_hz,
-                       format_freedom(s, worst), worst.worst_hz);
+    return fmt::format(
+        "interface flexibility within {} % up to {:g} Hz (proved, of {}); worst: {} at {:.3g} Hz",
+        format_share(worst.error, certificate.rounding_floor), certificate.highest_hz,
+        s.elements.cols() > 0 ? "this mesh" : "these matrices", format_freedom(s, worst), worst.worst_hz);
   }
   return fmt::format(
       "interface flexibility without a bound up to {:.3g} Hz: {}; at rest within {} %, worst: {}",

@@ -12,8 +12,8 @@ namespace sprung::reduce {
 /// residual vectors`.
 std::string format_basis(const Superelement& superelement);
 
-/// What the certificate says, in a line: `interface flexibility within 0.9 % up to 60 Hz (proved); worst:
-/// front_spring y at 60 Hz`. Empty without a certificate or interface.
+/// What the certificate says, in a line: `interface flexibility within 0.9 % up to 60 Hz (proved, of this
+/// mesh); worst: front_spring y at 60 Hz`. Empty without a certificate or interface.
 std::string format_certificate_line(const Superelement& superelement);
 
 /// The certificate as tables: the free frequencies, and each interface freedom. Empty without a certificate.

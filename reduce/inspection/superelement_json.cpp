@@ -37,20 +37,20 @@ Json make_points_list(const Superelement& s) {
   return items;
 }
 
+// null stands for an error or a tolerance without bound, and for a frequency that there is not.
+Json make_share(double share) {
+  return share >= kUnbounded ? Json() : Json(share);
+}
+
 Json make_checks_list(std::span<const CheckResult> checks) {
   Json items = Json::array();
   for (const CheckResult& check : checks) {
     items.push_back({{"name", check.name},
                      {"value", check.value},
-                     {"tolerance", check.tolerance},
+                     {"tolerance", make_share(check.tolerance)},
                      {"passed", check.passed()}});
   }
   return items;
-}
-
-// null stands for an error without bound, and for a frequency that there is not.
-Json make_share(double share) {
-  return share >= kUnbounded ? Json() : Json(share);
 }
 
 Json make_certificate(const Superelement& s) {

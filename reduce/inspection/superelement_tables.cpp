@@ -149,8 +149,12 @@ std::string format_modes(const Superelement& s) {
 std::string format_checks(std::span<const CheckResult> checks) {
   TextTable table({"check", "value", "tolerance", "result"});
   for (const CheckResult& check : checks) {
-    table.add_row({check.name, fmt::format("{:.2e}", check.value), fmt::format("{:.2e}", check.tolerance),
-                   check.passed() ? "passed" : "FAILED"});
+    const bool has_tolerance = check.tolerance < kUnbounded;
+    table.add_row({check.name, fmt::format("{:.2e}", check.value),
+                   has_tolerance ? fmt::format("{:.2e}", check.tolerance) : "none",
+                   !has_tolerance   ? ""
+                   : check.passed() ? "passed"
+                                    : "FAILED"});
   }
   return table.str();
 }

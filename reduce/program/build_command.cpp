@@ -11,6 +11,7 @@
 #include "reduce/matrices/body_checks.h"
 #include "reduce/program/commands.h"
 #include "reduce/program/previous_file.h"
+#include "reduce/reduction/mesh_judgement.h"
 #include "reduce/reduction/reduction.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
@@ -136,8 +137,11 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   report(options, fmt::format("{}: {}", output.string(), describe(made)));
   if (const std::string remark = remark_on_ground(read, made); !remark.empty())
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
-  const std::string certificate = format_certificate_line(made);
-  if (!certificate.empty()) report(options, fmt::format("{}: {}", output.string(), certificate));
+  const double judged_hz = choose_judged_hz(read, made);
+  for (const std::string& line : {format_certificate_line(made), describe_mesh(read, judged_hz)})
+    if (!line.empty()) report(options, fmt::format("{}: {}", output.string(), line));
+  if (const std::string remark = remark_on_mesh(read, judged_hz); !remark.empty())
+    report(options, fmt::format("{}: remark: {}", design.string(), remark));
   if (previous.superelement && !options.quiet) {
     support::print(stdout, "{}", format_comparison(compare_modes(*previous.superelement, made)));
   }

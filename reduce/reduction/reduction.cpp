@@ -9,6 +9,7 @@
 #include "reduce/reduction/body_basis.h"
 #include "reduce/reduction/held_rounding.h"
 #include "reduce/reduction/inertia_invariants.h"
+#include "reduce/reduction/mesh_judgement.h"
 #include "reduce/reduction/reference_stiffness.h"
 #include "reduce/reduction/static_response.h"
 #include "reduce/reduction/superelement_checks.h"
@@ -177,6 +178,7 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
   s.provenance = design.provenance;
 
   s.checks = basis.checks;
+  if (!design.matrices) s.checks.push_back(make_mesh_check(design, choose_judged_hz(design, s)));
   for (const CheckResult& check : check_superelement(s)) s.checks.push_back(check);
   require_checks(s.checks, design, matrices);
   return s;

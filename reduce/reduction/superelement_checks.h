@@ -17,6 +17,9 @@ inline constexpr const char* kOldRoundingCheck = "rounding error of the lowest Ï
 /// made before it was looked at have none.
 inline constexpr const char* kHeldRoundingCheck = "rounding error of the held frame";
 
+/// Followed by " at F Hz". It has no tolerance, because the mesh is the user's choice.
+inline constexpr const char* kMeshCheck = "estimated error of the mesh";
+
 inline constexpr const char* kMassConditionCheck = "condition of the mass matrix of frame and modes";
 inline constexpr const char* kResidualCheck = "residual of the modes";
 inline constexpr const char* kPointLoadCheck = "work of the section loads on the modes";

@@ -21,7 +21,7 @@ TEST_CASE("a certificate is told in a line: bound, band, worst freedom") {
   certificate.interface[1].error = 0.0091;
   certificate.interface[1].worst_hz = 60.0;
   CHECK(format_certificate_line(body) ==
-        "interface flexibility within 0.91 % up to 60 Hz (proved); worst: p0 y at 60 Hz");
+        "interface flexibility within 0.91 % up to 60 Hz (proved, of this mesh); worst: p0 y at 60 Hz");
   for (InterfaceError& one : certificate.interface) one.error = 1e-12;
   CHECK_THAT(format_certificate_line(body), StartsWith("interface flexibility within < 1e-06 % up to 60 Hz"));
   CHECK_THAT(format_modes(body), Contains("residual") && Contains("no frequency of the body"));
