@@ -118,6 +118,27 @@ class Truck(ConvertCase):
         self.assert_same_body(self.reduce(text, "nastran"), self.expected)
 
 
+class Divided(ConvertCase):
+    """The lines of an imported frame divided into elements."""
+
+    def test_lines_divided_are_those_of_a_design_with_as_many_elements(self):
+        self.reduce(portal_by_lines(), "coarse")
+        expected = self.reduce(portal_by_lines().replace("elements = 1", "elements = 3"), "native")
+        mesh = make_portal_mesh()
+        meshio.write(self.folder / "portal.vtk", mesh)
+        printed = self.convert("portal.vtk", "--elements", "3")
+        self.assertIn("Each of the lines kept is divided into 3 elements", printed)
+        names = {section: f"section_{number}" for number, section in enumerate(SECTIONS, start=1)}
+        found = self.reduce(portal_by_mesh(names), "divided")
+        self.assertEqual(len(found["elements/node"]), 3 * len(mesh.cells[0].data))
+        self.assert_same_body(found, expected)
+
+    def test_numbers_of_elements_that_no_line_has_are_refused(self):
+        process = self.run_tool("convert_mesh", TRUCK / "chassis.inp", "mesh.msh", "--elements", "0")
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("--elements: error: 0, expected 1 … 1000", process.stderr)
+
+
 class Portal(ConvertCase):
     """A frame of three sections from each format against its design without a mesh."""
 

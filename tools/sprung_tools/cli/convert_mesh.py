@@ -8,6 +8,7 @@ import os
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import check_output, write_whole
+from sprung_tools.mesh_import.divided_lines import divide_lines
 from sprung_tools.mesh_import.gmsh_writer import write_msh
 from sprung_tools.mesh_import.ladder_frame import unite_rails
 from sprung_tools.mesh_import.line_mesh import LineMesh
@@ -19,6 +20,7 @@ from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
 MOST_POINTS = 24  # points that are listed by name
+MOST_PARTS = 1000  # elements in a line
 PLANES = ("xy", "xz", "yz", "yx", "zx", "zy")
 
 
@@ -77,6 +79,10 @@ def main() -> int:
         help="the element sets that become curves, where sets overlap; the others are left out",
     )  # fmt: skip
     parser.add_argument(
+        "--elements", metavar="N", type=int, default=1,
+        help="divide each line into N elements: a frame with one element per member is too coarse (default: 1)",
+    )  # fmt: skip
+    parser.add_argument(
         "--scale", metavar="M", type=float, default=1.0, help="length of the source's unit in metres (mm: 1e-3)"
     )
     parser.add_argument(
@@ -91,15 +97,19 @@ def main() -> int:
     ):  # fmt: skip
         if not 0.0 < value < math.inf:
             raise InputError(f"{name}: error: {value:g}, expected {expected}")
+    if not 1 <= arguments.elements <= MOST_PARTS:
+        raise InputError(f"--elements: error: {arguments.elements}, expected 1 … {MOST_PARTS}")
     mesh = read_mesh(arguments.input)
     check_output(arguments.output, [arguments.input])
     if arguments.unite_rails:
         mesh = unite_rails(mesh, arguments.plane)
     frame = make_plane_frame(mesh, arguments.plane, arguments.sections, arguments.scale)
-    write_msh(frame, arguments.output)
+    write_msh(divide_lines(frame, arguments.elements), arguments.output)
     units = Units(arguments.scale, arguments.force)
     design = format_design(mesh, frame, arguments.plane, units, os.path.basename(arguments.output))
     print_report(mesh, frame, arguments.plane, units, arguments.output)
+    if arguments.elements > 1:
+        print(f"Each of the lines kept is divided into {arguments.elements} elements")
     write_design(design, arguments.output.removesuffix(".msh") + ".toml")
     for doubt in (*mesh.doubts, *find_doubts(mesh, frame, units)):
         print(f"remark: {doubt}")
