@@ -14,6 +14,7 @@
 #include "reduce/matrices/abaqus_substructure.h"
 #include "reduce/matrices/body_checks.h"
 #include "reduce/matrices/calculix_matrix.h"
+#include "reduce/matrices/ground.h"
 #include "reduce/matrices/matrix_market.h"
 #include "reduce/matrices/nastran_dmig.h"
 
@@ -162,6 +163,7 @@ DesignMatrices read_design_matrices(const TomlTable& root, const std::filesystem
   read.body.is_reduced |= reader.is_substructure;
   if (const auto reduced = table.find("reduced")) read.body.is_reduced |= reduced->boolean();
   for (const std::string& remark : check_matrix_body(read.body)) read.body.remarks.push_back(remark);
+  release_from_ground(read.body);
   check_expected(table, read.body);
   return read;
 }

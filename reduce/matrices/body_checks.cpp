@@ -5,7 +5,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "reduce/matrices/linear_motions.h"
@@ -226,16 +225,6 @@ std::vector<std::string> check_matrix_body(const MatrixBody& body) {
   if (without.empty()) return {};
   return {fmt::format("{} freedom{} no mass: {}", without.size(), without.size() == 1 ? " has" : "s have",
                       list_freedoms(body, without))};
-}
-
-double calc_ground_frequency_hz(const MatrixBody& body) {
-  const LinearMotions motions = make_linear_motions(body, calc_middle(body));
-  double omega_squared = 0.0;
-  for (const Eigen::VectorXd& motion : {motions.along_x, motions.along_y, motions.rotation}) {
-    omega_squared =
-        std::max(omega_squared, motion.dot(body.stiffness * motion) / motion.dot(body.mass * motion));
-  }
-  return std::sqrt(omega_squared) / (2.0 * std::numbers::pi);
 }
 
 void check_expected_mass(const MatrixBody& body, const ExpectedMass& expected) {

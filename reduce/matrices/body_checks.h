@@ -25,11 +25,6 @@ struct ExpectedMass {
 /// Checked by tests/reduce/matrices/matrix_errors_test.py
 std::vector<std::string> check_matrix_body(const MatrixBody& body);
 
-/// The highest frequency at which the body, as if rigid, would vibrate along x, along y or about its middle
-/// on what its stiffness opposes to this motion: nothing but rounding, or springs to the ground that are too
-/// soft for check_matrix_body [Hz].
-double calc_ground_frequency_hz(const MatrixBody& body);
-
 /// Compares mass, centre of mass and moment of inertia.
 /// @throws support::InputError at `expected.where`
 void check_expected_mass(const MatrixBody& body, const ExpectedMass& expected);

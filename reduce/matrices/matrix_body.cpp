@@ -9,7 +9,9 @@
 #include <set>
 
 #include "reduce/matrices/follower_rotation.h"
+#include "reduce/matrices/linear_motions.h"
 #include "reduce/matrices/modal_freedoms.h"
+#include "reduce/matrices/printed_digits.h"
 #include "tools/support/errors/input_error.h"
 
 namespace sprung::reduce {
@@ -254,6 +256,24 @@ Eigen::SparseMatrix<double> project(const Motions& motions, const Eigen::SparseM
   return projected;
 }
 
+// |T|ᵀ |K| |T| |R| by the rounding of the entries, and for rotations by that of the places.
+Eigen::MatrixXd calc_rounding(const Motions& motions, const MatrixSystem& system, const MatrixBody& body,
+                              const Eigen::VectorXd& scale, double energy) {
+  const double of_entries = estimate_rounding(system.stiffness.coeffs());
+  const double of_places = estimate_rounding(system.nodes.positions.reshaped());
+  const LinearMotions about = make_linear_motions(body, calc_middle(body));
+  Eigen::MatrixXd R(scale.size(), 3);
+  R << of_entries * about.along_x, of_entries * about.along_y, of_entries * about.rotation.cwiseAbs();
+  // The place along y moves x in rotation, and the place along x moves y.
+  for (int node = 0; node < body.num_nodes(); ++node) {
+    const Eigen::Vector2d place = body.node_positions.col(node).cwiseAbs();
+    R.block<2, 1>(3 * node, 2) += of_places * Eigen::Vector2d(place.y(), place.x());
+  }
+  const Eigen::SparseMatrix<double> T = motions.symmetric.cwiseAbs();
+  return energy * (scale.asDiagonal() *
+                   (T.transpose() * (system.stiffness.cwiseAbs() * (T * (scale.asDiagonal() * R)))));
+}
+
 void require_displacements(const MatrixBody& body) {
   for (int node = 0; node < body.num_nodes(); ++node) {
     for (int axis = 0; axis < 2; ++axis) {
@@ -300,6 +320,8 @@ MatrixBody make_matrix_body(const MatrixSystem& system, const PlanarAxes& axes, 
                   .num_pairs = motions.num_pairs,
                   .modal_ids = motions.modal_ids,
                   .is_reduced = !motions.modal_ids.empty(),
+                  .rounding = {},
+                  .ground = {},
                   .stiffness_path = system.stiffness_path,
                   .mass_path = system.mass_path,
                   .remarks = {}};
@@ -318,6 +340,7 @@ MatrixBody make_matrix_body(const MatrixSystem& system, const PlanarAxes& axes, 
   const double energy = units.mass * units.length * units.length;
   body.stiffness = project(motions, system.stiffness, scale, energy);
   body.mass = project(motions, system.mass, scale, energy);
+  body.rounding = calc_rounding(motions, system, body, scale, energy);
   hold_missing_freedoms(body);
   return body;
 }

@@ -9,6 +9,15 @@
 
 namespace sprung::reduce {
 
+/// What resists rigid motion of a body that should be free: nothing but rounding, or springs to the ground.
+struct Ground {
+  double frequency_hz = 0.0;  ///< at which the rigid body would vibrate on it: the highest of three [Hz]
+  double stiffness = 0.0;     ///< of that motion [N/m, N·m]
+  int motion = 0;             ///< 0: along x, 1: along y, 2: rotation about the middle of the nodes
+  Eigen::Index freedom = 0;   ///< where it is the most beyond rounding
+  bool is_rounding = true;    ///< whether the digits of the files explain all of it
+};
+
 /// A body in the plane, given by matrices in place of beams. Freedoms 3n, 3n+1, 3n+2 are node n's x and y
 /// displacement and rotation, as those of fem::assemble. After those of the N nodes stand those of A mirrored
 /// pairs: the motion of one node of a pair across the plane, and its rotations about x and about y. Last
@@ -26,6 +35,10 @@ struct MatrixBody {
   std::vector<std::int64_t> modal_ids;  ///< Q, the numbers of the modal freedoms in the file
   /// The body was reduced elsewhere: its nodes move with a part of its motions alone, rigid ones included.
   bool is_reduced = false;
+  /// Forces that the digits of the files explain in rigid motion along x, along y, and about the middle of
+  /// the nodes; n×3 [N, N·m per m, per rad]
+  Eigen::MatrixXd rounding;
+  Ground ground;                          ///< of the stiffness before release_from_ground
   std::string stiffness_path, mass_path;  ///< for messages
   std::vector<std::string> remarks;       ///< on what the user should know
 

@@ -8,7 +8,7 @@
 #include "reduce/inspection/certificate_tables.h"
 #include "reduce/inspection/comparison.h"
 #include "reduce/inspection/superelement_tables.h"
-#include "reduce/matrices/body_checks.h"
+#include "reduce/matrices/ground.h"
 #include "reduce/program/commands.h"
 #include "reduce/program/previous_file.h"
 #include "reduce/reduction/mesh_judgement.h"
@@ -26,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using support::InputError;
-
-constexpr double kGroundShare = 1e-2;  // of the lowest frequency
 
 // Progress goes to stdout line by line, so that a pipe sees it too.
 void report(const BuildOptions& options, const std::string& text) {
@@ -84,17 +82,6 @@ std::string describe(const Superelement& s) {
                      s.section_loads ? "" : ", too large for section loads from the loads");
 }
 
-// Matrices of a free body that something soft holds, or "".
-std::string remark_on_ground(const Design& design, const Superelement& s) {
-  if (!design.matrices) return {};
-  const double ground = calc_ground_frequency_hz(*design.matrices);
-  if (!(ground > kGroundShare * s.frequency_hz(0))) return {};
-  return fmt::format(
-      "the stiffness resists rigid motion, as springs to the ground do on which the body would "
-      "vibrate at {:.3g} Hz; what it is reduced to is free",
-      ground);
-}
-
 // Why the file is to be made, "" if it is up to date.
 std::string find_reason(const PreviousFile& previous, const fs::path& design, const fs::path& output,
                         const BuildOptions& options) {
@@ -135,8 +122,10 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   write_superelement(made, output);
   progress.finish();
   report(options, fmt::format("{}: {}", output.string(), describe(made)));
-  if (const std::string remark = remark_on_ground(read, made); !remark.empty())
-    report(options, fmt::format("{}: remark: {}", design.string(), remark));
+  if (read.matrices) {
+    const std::string remark = remark_on_ground(*read.matrices, made.frequency_hz(0));
+    if (!remark.empty()) report(options, fmt::format("{}: remark: {}", design.string(), remark));
+  }
   const double judged_hz = choose_judged_hz(read, made);
   for (const std::string& line : {format_certificate_line(made), describe_mesh(read, judged_hz)})
     if (!line.empty()) report(options, fmt::format("{}: {}", output.string(), line));

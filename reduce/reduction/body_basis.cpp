@@ -9,6 +9,7 @@
 #include "reduce/basis/fixed_interface_basis.h"
 #include "reduce/basis/free_basis.h"
 #include "reduce/certificate/certify.h"
+#include "reduce/matrices/ground.h"
 #include "reduce/matrices/matrix_moments.h"
 #include "reduce/modes/canonical_basis.h"
 #include "reduce/modes/clusters.h"
@@ -109,10 +110,17 @@ BasisRequest make_request(const Design& design, const BodyMatrices& matrices, do
   return request;
 }
 
+// The matrices of another program may hold the body.
+void require_free(const Design& design, double lowest_omega_squared) {
+  if (design.matrices) require_no_ground(*design.matrices, calc_frequency_hz(lowest_omega_squared));
+}
+
 Certificate certify_clamped(const Design& design, const BodyMatrices& matrices, const StiffnessFactor& factor,
                             const EigenPairs& stored, double rounding, const ClampedModeOptions& options) {
   const BasisRequest request = make_request(design, matrices, choose_band(design, stored));
   const ModesBelow free = calc_modes_below(matrices.free, kBandMargin * request.highest_hz, options);
+  require_free(design,
+               free.pairs.omega_squared.size() > 0 ? free.pairs.omega_squared(0) : free.next_omega_squared);
   InterfaceResidual residual(matrices.free, factor, {}, request.loads);
   const bool is_complete = stored.vectors.cols() == matrices.free.size();
   if (!is_complete) residual.add(stored.vectors);
@@ -166,6 +174,7 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
           : calc_modes_below(matrices.free, 1.01 * calc_frequency_hz(modes.next_omega_squared), options);
   if (lowest.pairs.vectors.cols() == 0)
     throw support::NumericalError("no elastic mode of the free body was found, though the count has one");
+  require_free(design, lowest.pairs.omega_squared(0));
   request.rounding = check_rounding(design, matrices.free.stiffness, lowest.pairs);
   const bool is_free = design.reduction.basis == BasisKind::kFree;
   const FreeBodyBasis found = is_free
