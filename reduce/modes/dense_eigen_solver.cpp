@@ -21,12 +21,16 @@ constexpr double kSmallestMass = 1e-12;  // of a mass matrix scaled to unit diag
 Eigen::LLT<Eigen::MatrixXd> factor(const Eigen::MatrixXd& matrix, std::string_view name) {
   Eigen::LLT<Eigen::MatrixXd> factors(matrix);
   if (factors.info() != Eigen::Success) {
-    const std::string message = fmt::format(
-        "modes: the {} matrix is not positive definite to rounding; refine the mesh less, or look for "
-        "sections that differ by many orders of magnitude",
-        name);
-    if (name == kStiffness) throw IndefiniteStiffness(message);
-    throw support::NumericalError(message);
+    if (name == kStiffness) {
+      throw IndefiniteStiffness(
+          "modes: the stiffness matrix is not positive definite to rounding; refine the mesh less, or look "
+          "for "
+          "sections that differ by many orders of magnitude");
+    }
+    throw support::NumericalError(
+        "modes: the mass matrix is not positive definite to rounding; masses or moments of inertia that "
+        "differ by "
+        "many orders of magnitude are the usual cause");
   }
   return factors;
 }
@@ -40,7 +44,10 @@ EigenPairs solve_semidefinite(const Eigen::MatrixXd& stiffness, const Eigen::Mat
   const auto pairs =
       support::solve_symmetric(scale.cwiseInverse().asDiagonal() * mass * scale.cwiseInverse().asDiagonal());
   if (!pairs || !(pairs->values(pairs->values.size() - rank) > kSmallestMass)) {
-    throw support::NumericalError("modes: more motions have no mass than the mass matrix has zero rows");
+    throw support::NumericalError(
+        "modes: more motions have no mass, to rounding, than freedoms have none; masses or moments of "
+        "inertia "
+        "that differ by many orders of magnitude are the usual cause: leave the tiny ones out");
   }
   const Eigen::MatrixXd G =
       scale.asDiagonal() * pairs->vectors.rightCols(rank) * pairs->values.tail(rank).cwiseSqrt().asDiagonal();

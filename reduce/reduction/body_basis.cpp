@@ -19,6 +19,7 @@
 #include "reduce/reduction/held_rounding.h"
 #include "reduce/reduction/mechanism.h"
 #include "reduce/reduction/superelement_checks.h"
+#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/processes/large_heap.h"
 
@@ -133,6 +134,40 @@ Certificate certify_clamped(const Design& design, const BodyMatrices& matrices, 
                                      .rounding = rounding});
 }
 
+// A reference without mass moves against the body without inertia: the held body has more modes than the free
+// one has elastic motions, and enough of them leave frame and modes together a motion without mass.
+void require_motions_with_mass(const Design& design, const BodyMatrices& matrices,
+                               const Eigen::MatrixXd& vectors) {
+  constexpr double kNoMass = 1e-9;  // of modes whose mass is 1 where the reference is held
+  const Eigen::VectorXd mass = matrices.full.mass.diagonal();
+  if (mass.segment<3>(3 * design.reference_node).minCoeff() > 0.0) return;
+  const Eigen::MatrixXd of_free = vectors.transpose() * matrices.free.times_mass(vectors);
+  const auto pairs = support::solve_symmetric(of_free);
+  const Eigen::Index num = pairs ? (pairs->values.array() > kNoMass).count() : vectors.cols();
+  if (num == vectors.cols()) return;
+  throw support::InputError(
+      design.modes.where,
+      fmt::format(
+          "asks for {} clamped modes, but they have only {} elastic motion{} with mass, because the "
+          "reference, {}, has no mass of its own in some direction; take fewer modes, a reference with "
+          "mass and moment of inertia, or the basis \"free\"",
+          vectors.cols(), num, num == 1 ? "" : "s",
+          fem::describe_node(design.model.mesh, design.reference_node)));
+}
+
+// The first three motions with mass are rigid ones.
+void require_elastic_motion(const Design& design, const BodyMatrices& matrices) {
+  if (matrices.free.num_modes() > 0) return;
+  const Eigen::Index num = matrices.full.mass.rows() - matrices.free.num_massless;
+  const std::string text = fmt::format(
+      "only {} freedom{} of the body {} mass: with three rigid motions it has no elastic mode; give more of "
+      "its "
+      "points mass, or make it a rigid body of the vehicle",
+      num, num == 1 ? "" : "s", num == 1 ? "has" : "have");
+  if (design.matrices) throw support::InputError({.path = design.matrices->mass_path}, text);
+  throw support::NumericalError(text);
+}
+
 BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
                              const StiffnessFactor& factor, const HeldRounding& held,
                              const ClampedModeOptions& options) {
@@ -143,6 +178,7 @@ BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
   const std::vector<int> columns = select_modes(design.modes, modes, num_needed);
   const CanonicalVectors canonical = make_canonical(design, matrices, modes.pairs, modes.cluster, columns,
                                                     make_shapes(design, modes.pairs.vectors));
+  require_motions_with_mass(design, matrices, canonical.vectors);
   BodyBasis basis;
   basis.shapes = make_shapes(design, canonical.vectors);
   basis.cluster = modes.cluster(columns);
@@ -264,6 +300,7 @@ fem::MassMoments make_mass_moments(const Design& design, const Eigen::Vector2d& 
 
 BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices,
                           const ClampedModeOptions& options) {
+  require_elastic_motion(design, matrices);
   const StiffnessFactor& factor = *matrices.factor;
   const HeldRounding held = estimate_held_rounding(matrices);
   if (held.is_of_soft_reference() && held.error > kMaxHeldRounding)

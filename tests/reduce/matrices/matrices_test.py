@@ -329,6 +329,33 @@ class MatricesTest(ReduceTestCase):
             np.testing.assert_allclose(found, expected[: len(found)], rtol=1e-9)
         self.assertEqual(len(found), 3)
 
+    # Lumped masses of displacements, none of rotations: of five nodes 10 motions have mass, 7 of them elastic. Held at
+    # a node, 8 have mass, since its rotation moves against the masses without inertia.
+    def test_more_clamped_modes_than_motions_with_mass_are_refused_by_the_reason(self):
+        K, _ = files.make_beam(4)
+        self.write_beam_files(lambda path, _: None, ids=(1, 2, 3, 4, 5))
+        files.write_matrix_market(self.folder / "k.mtx", K)
+        files.write_matrix_market(self.folder / "m.mtx", np.diag(np.tile([420.0, 420.0, 0.0], 5)))
+        for wanted in ("all = true", "count = 8"):
+            design = self.write_design("body", f'format = "matrix-market"\n{FILES}',
+                                       CLAMPED.replace("all = true", wanted))
+            self.assertIn("asks for 8 clamped modes, but they have only 7 elastic motions with mass, because the "
+                          "reference, node 1 'a' at (0, 0), has no mass of its own in some direction; take fewer",
+                          self.build(design, code=2).stderr)
+        self.build(self.write_design("body", f'format = "matrix-market"\n{FILES}',
+                                     CLAMPED.replace("all = true", "count = 3")))
+        self.assertEqual(len(self.frequencies("body")), 3)
+
+    def test_a_mass_at_one_node_leaves_no_elastic_mode(self):
+        self.write_beam_files(files.write_matrix_market)
+        for masses, text in (((420.0, 420.0, 5.0), "only 3 freedoms of the body have mass"),
+                             ((420.0, 420.0, 0.0), "only 2 freedoms of the body have mass")):
+            files.write_matrix_market(self.folder / "m.mtx", np.diag([0.0, 0.0, 0.0, *masses, 0.0, 0.0, 0.0]))
+            for rest in (BASIS, CLAMPED):
+                design = self.write_design("body", f'format = "matrix-market"\n{FILES}', rest)
+                error = self.build(design, code=2).stderr
+                self.assertIn(f"m.mtx: error: {text}: with three rigid motions it has no elastic mode", error)
+
     def test_nodes_without_rotations_rotate_as_the_nodes_around_them(self):
         # A strip of squares with diagonals, of bars that carry axial forces alone; the free body's frequencies need
         # no rotation.
