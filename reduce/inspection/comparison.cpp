@@ -11,7 +11,6 @@ namespace sprung::reduce {
 
 namespace {
 
-constexpr double kLeastShare = 0.5;    // of the nodes that must be common
 constexpr double kLeastOverlap = 0.5;  // mean cos²; below it clusters have nothing to do with each other
 
 // Of the vectors that are modes of the body, free or held at its reference node.
@@ -133,6 +132,8 @@ Comparison compare_modes(const Superelement& old_body, const Superelement& new_b
   const bool comparable = are_alike && std::min(samples.share_of_old, samples.share_of_new) >= kLeastShare;
   Comparison comparison{
       .num_points = samples.num_points,
+      .share_of_old = samples.share_of_old,
+      .share_of_new = samples.share_of_new,
       .comparable = comparable,
       .are_alike = are_alike,
       .matches = comparable ? pair_by_overlap(

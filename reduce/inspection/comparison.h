@@ -17,10 +17,14 @@ struct ModeMatch {
   double mac = 0.0;
 };
 
+/// Of the nodes of each body, that must lie on the other one for a MAC.
+inline constexpr double kLeastShare = 0.5;
+
 struct Comparison {
-  int num_points = 0;      ///< places where both bodies' displacements are known
-  bool comparable = true;  ///< the places cover at least half of each body's nodes, and the next holds
-  bool are_alike = true;   ///< both have free modes, or both have modes of the held body
+  int num_points = 0;                             ///< places where both bodies' displacements are known
+  double share_of_old = 0.0, share_of_new = 0.0;  ///< of each body's nodes, that lie at these places
+  bool comparable = true;                         ///< both are at least kLeastShare, and the next holds
+  bool are_alike = true;           ///< both have free modes, or both have modes of the held body
   std::vector<ModeMatch> matches;  ///< in the order of the old modes, then the new
   /// Vectors that are no modes of the body, such as residual ones, which are not compared.
   Eigen::Index num_other_old = 0, num_other_new = 0;

@@ -174,7 +174,12 @@ std::string format_comparison(const Comparison& comparison) {
         "Free modes of one body and clamped modes of the other have no MAC; they are paired by their "
         "order.\n";
   } else if (!comparison.comparable) {
-    text += "The two bodies have too few places in common for a MAC; modes are paired by their order.\n";
+    text += fmt::format(
+        "The two bodies have too few places in common for a MAC: {:.0f} % of the old body's nodes and {:.0f} "
+        "% of "
+        "the new one's lie on the other, and {:.0f} % must; modes are paired by their order.\n",
+        std::floor(100.0 * comparison.share_of_old), std::floor(100.0 * comparison.share_of_new),
+        100.0 * kLeastShare);
   }
   if (comparison.num_other_old + comparison.num_other_new > 0) {
     text += fmt::format(

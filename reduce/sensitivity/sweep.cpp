@@ -166,6 +166,7 @@ TrackedModes continue_modes(const TrackedModes& from, const BodyModes& modes,
   // The modes given are those of another mass, so that their norms differ from 1.
   const Eigen::VectorXd norms = from.shapes.cwiseProduct(momenta).colwise().sum().cwiseSqrt();
   Eigen::MatrixXd open = norms.cwiseInverse().asDiagonal() * correlation.cwiseAbs();
+  std::vector<bool> is_followed(static_cast<std::size_t>(hz.size()), false);
   TrackedModes to{.hz = Eigen::VectorXd(n), .correlation = Eigen::VectorXd(n), .shapes = from.shapes};
   for (Eigen::Index i = 0; i < n; ++i) {
     Eigen::Index mode = 0, found = 0;
@@ -175,7 +176,11 @@ TrackedModes continue_modes(const TrackedModes& from, const BodyModes& modes,
     to.shapes.col(mode) = (correlation(mode, found) < 0.0 ? -1.0 : 1.0) * shapes.col(found);
     open.row(mode).setConstant(-1.0);
     open.col(found).setConstant(-1.0);
+    is_followed[static_cast<std::size_t>(found)] = true;
   }
+  constexpr double kLower = 1.0 - 1e-6;  // by more than the members of a cluster differ
+  for (Eigen::Index j = 0; j < hz.size(); ++j)
+    to.is_passed |= !is_followed[static_cast<std::size_t>(j)] && hz(j) < kLower * to.hz.maxCoeff();
   return to;
 }
 

@@ -14,6 +14,7 @@ struct TrackedModes {
   Eigen::VectorXd hz;           ///< n
   Eigen::VectorXd correlation;  ///< n, |φ_oldᵀMφ_new| along the last step, the smaller the less sure
   Eigen::MatrixXd shapes;       ///< 3N×n
+  bool is_passed = false;       ///< a mode of the body that is none of them is lower than one of them
 };
 
 /// The modes that continue those given: pairs of the largest correlations, each mode once. Within a cluster,

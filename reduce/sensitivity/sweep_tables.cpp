@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
@@ -39,6 +41,9 @@ Json make_tracked(const TrackedModes& modes) {
 }  // namespace
 
 std::string format_sweep(const SweepOptions& options, const std::vector<SweepPoint>& points) {
+  const bool is_passed = std::any_of(points.begin(), points.end(), [](const SweepPoint& point) {
+    return point.free.is_passed || point.clamped.is_passed;
+  });
   const std::string remark =
       options.is_preview ? "Preview: all but the first line by the modes of the first line\n\n" : "";
   return remark +
@@ -47,8 +52,10 @@ std::string format_sweep(const SweepOptions& options, const std::vector<SweepPoi
          "\n" +
          format_tracked(options, points, "Modes of the body clamped at its reference node",
                         &SweepPoint::clamped) +
-         "\nA mode that comes down from above those of the first line is in no column; more --modes show "
-         "it.\n";
+         (is_passed
+              ? "\nA mode that came down from above those of the first line is in no column; more --modes "
+                "show it.\n"
+              : "");
 }
 
 std::string format_sweep_json(const SweepOptions& options, const std::vector<SweepPoint>& points) {

@@ -27,7 +27,8 @@ class Program(ReduceTestCase):
         result = self.build("chassis_certified.toml")
         self.assertIn("36 freedoms, 5 free modes from 9.7219 to 87.0238 Hz, 10 residual vectors", result.stdout)
         self.assertRegex(
-            result.stdout, r"interface flexibility within 0\.78 % up to 60 Hz \(proved, of this mesh\); worst: \w+_pivot y at 60 Hz"
+            result.stdout, r"interface flexibility within 0\.78 % up to 60 Hz \(proved, of this mesh\); "
+            r"worst: \w+_pivot y at 60 Hz"
         )
         path = self.folder / "out/chassis_certified.h5"
         self.assertEqual(self.run_program("check", path).returncode, 0)

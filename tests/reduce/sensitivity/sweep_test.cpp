@@ -38,6 +38,22 @@ TEST_CASE("modes are followed by their shapes through an exact crossing") {
   CHECK_THAT(format_sweep_json(options, points), Contains("\"correlation\""));
 }
 
+// With three modes the second mode of the second beam, f ∝ h, is above them at first, 6.27 · 0.04 beside 6.27
+// · 0.03, and comes down below the second mode of the first beam.
+TEST_CASE("a mode that comes down below those that are followed is told of, and only then") {
+  SweepOptions options = make_sweep("sections.second.height", {0.04, 0.035});
+  options.num_modes = 3;
+  std::vector<SweepPoint> points = calc_sweep(options);
+  for (const SweepPoint& point : points) CHECK_FALSE(point.clamped.is_passed);
+  for (SweepPoint& point : points) point.free.is_passed = false;
+  CHECK_THAT(format_sweep(options, points), !Contains("came down"));
+  options.values = {0.04, 0.02};
+  points = calc_sweep(options);
+  CHECK_FALSE(points.front().clamped.is_passed);
+  CHECK(points.back().clamped.is_passed);
+  CHECK_THAT(format_sweep(options, points), Contains("came down from above"));
+}
+
 // A pair in another basis is the same pair: rotated back it continues the modes without a change.
 TEST_CASE("the basis of a cluster is rotated to the modes that continue in it") {
   const Design design = read_design(make_sweep("sections.first.height", {}).design);
