@@ -1,6 +1,7 @@
 #include "reduce/inspection/superelement_json.h"
 
 #include "reduce/inspection/superelement_tables.h"
+#include "reduce/reduction/superelement_checks.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::reduce {
@@ -47,7 +48,7 @@ Json make_checks_list(std::span<const CheckResult> checks) {
   for (const CheckResult& check : checks) {
     items.push_back({{"name", check.name},
                      {"value", check.value},
-                     {"tolerance", make_share(check.tolerance)},
+                     {"tolerance", check.tolerance < kNoTolerance ? Json(check.tolerance) : Json()},
                      {"passed", check.passed()}});
   }
   return items;

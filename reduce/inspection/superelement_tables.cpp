@@ -1,4 +1,5 @@
 #include "reduce/inspection/superelement_tables.h"
+#include "reduce/reduction/superelement_checks.h"
 
 #include <fmt/format.h>
 
@@ -149,7 +150,7 @@ std::string format_modes(const Superelement& s) {
 std::string format_checks(std::span<const CheckResult> checks) {
   TextTable table({"check", "value", "tolerance", "result"});
   for (const CheckResult& check : checks) {
-    const bool has_tolerance = check.tolerance < kUnbounded;
+    const bool has_tolerance = check.tolerance < kNoTolerance;
     table.add_row({check.name, fmt::format("{:.2e}", check.value),
                    has_tolerance ? fmt::format("{:.2e}", check.tolerance) : "none",
                    !has_tolerance   ? ""

@@ -30,8 +30,8 @@ double choose_judged_hz(const Design& design, const Superelement& s) {
 
 CheckResult make_mesh_check(const Design& design, double judged_hz) {
   return {.name = fmt::format("{} at {:.6g} Hz", kMeshCheck, judged_hz),
-          .value = std::min(fem::estimate_mesh_error(design.model).at(judged_hz), kUnbounded),
-          .tolerance = kUnbounded};
+          .value = std::min(fem::estimate_mesh_error(design.model).at(judged_hz), kNoTolerance),
+          .tolerance = kNoTolerance};
 }
 
 std::string describe_mesh(const Design& design, double judged_hz) {

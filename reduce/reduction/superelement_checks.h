@@ -20,6 +20,9 @@ inline constexpr const char* kHeldRoundingCheck = "rounding error of the held fr
 /// Followed by " at F Hz". It has no tolerance, because the mesh is the user's choice.
 inline constexpr const char* kMeshCheck = "estimated error of the mesh";
 
+/// Stands for no tolerance. The tools refuse files with much larger numbers.
+inline constexpr double kNoTolerance = 1e9;
+
 inline constexpr const char* kMassConditionCheck = "condition of the mass matrix of frame and modes";
 inline constexpr const char* kResidualCheck = "residual of the modes";
 inline constexpr const char* kPointLoadCheck = "work of the section loads on the modes";
