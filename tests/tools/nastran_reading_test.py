@@ -3,30 +3,18 @@
 import unittest
 
 import numpy as np
+from nastran_case import NastranCase
 from polygons import box, find_extremes, find_farthest, integrate
 from small_decks import NASTRAN
-from tool_test_case import ToolTestCase
 
-from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.frame_properties import Shape
-from sprung_tools.mesh_import.nastran_deck import read_nastran
 
 BAR = "CBAR,1,1,1,2,0.,1.,0.\n"
 ROOT_HALF = np.sqrt(0.5)
 
 
-class Reading(ToolTestCase):
+class Reading(NastranCase):
     """Decks that are written to a file and read."""
-
-    def read(self, text, name="a.bdf"):
-        (self.folder / name).write_text(text, encoding="utf-8")
-        return read_nastran(str(self.folder / name))
-
-    def assert_refused(self, text, message):
-        """Asserts that a deck is refused with a message that begins with the line."""
-        with self.assertRaises(InputError) as caught:
-            self.read(text, "b.bdf")
-        self.assertIn(f"b.bdf:{message}", str(caught.exception))
 
     def test_digits_that_no_deck_means_are_refused(self):
         # Python's float() and int() take 1_0, and digits of other scripts.
@@ -159,23 +147,6 @@ class Reading(ToolTestCase):
                 (one,) = self.read(NASTRAN.replace("ENDDATA", f"{nodes}{mass}\nENDDATA")).point_masses
                 self.assertEqual(one.left_out, left_out)
 
-    def test_a_shear_modulus_that_no_poisson_ratio_explains_is_listed(self):
-        text = f"BEGIN BULK\nGRID,1\nGRID,2,,1.\n{BAR}MAT1,7,2.,{{}},,5.\nENDDATA\n"
-        for shear, ratio in ((".8", 0.25), (".1", None)):
-            with self.subTest(shear):
-                mesh = self.read(text.format(shear))
-                self.assertEqual(mesh.materials["7"].poissons_ratio, ratio)
-                told = f"G = {float(shear):g} of MAT1 7" in "\n".join(mesh.left_behind)
-                self.assertEqual(told, ratio is None)
-
-    def test_the_taper_of_a_tube_is_listed(self):
-        for taper, left_out in (
-            ("", ()), (",.1", ()), (",.3", ("its taper to the diameter 0.3: the section at end A is taken",)),
-        ):  # fmt: skip
-            with self.subTest(taper):
-                deck = NASTRAN.replace("CBAR,1,1,1,2,0.,1.,0.", f"CTUBE,1,8,1,2\nPTUBE,8,3,.1,.005,{taper}")
-                self.assertEqual(self.read(deck).sections[0].left_out, left_out)
-
     def read_shape(self, card):
         """The shape of a property."""
         return self.read(NASTRAN.replace("ENDDATA", f"{card}\nENDDATA")).sections[0].shape
@@ -256,22 +227,6 @@ class Reading(ToolTestCase):
         for card, expected in (("DBOX\n,9.,4.,4.,.4,.6,.5,.5,.3\n,.2,.6,7.", 7.0), ("HEXA\n,1.,6.,4.,5.", 5.0)):
             mesh = self.read(NASTRAN.replace("ENDDATA", f"PBARL,1,1,,{card}\nENDDATA"))
             self.assertEqual(mesh.sections[0].extra_mass, expected)
-
-    def test_offsets_of_a_beam_s_mass_and_neutral_axis_are_listed(self):
-        # Quick Reference Guide, PBEAM: they are the last line, after K1 … CW(B); a station with YES has stresses, too.
-        beam = "PBEAM,1,1,.1,.2,.3,0.,.4,\n,,,,,,,,\n"
-        shear, end = ",1.,1.,,,,,,\n", ",NO,1.,.1,.2,.3,0.,.4,\n"
-        for lines, is_told in (
-            (f"{end}{shear},,,,,.1,,.1,", True),
-            (f",YES,1.,.1,.2,.3,0.,.4,\n,1.,1.,,,,,,\n{shear},.1,,,,,,,", True),
-            (f"{end}{shear},0.,,,,,,,", False),
-            (f"{end}{shear}", False),
-            (f"{shear},,,,,,.2,,", True),
-        ):
-            with self.subTest(lines):
-                mesh = self.read(NASTRAN.replace("ENDDATA", f"{beam}{lines}\nENDDATA"))
-                told = [one for one in mesh.sections[0].left_out if "its neutral axis" in one]
-                self.assertEqual(bool(told), is_told)
 
     def test_a_continuation_belongs_to_the_line_before_it_by_its_mark(self):
         # Quick Reference Guide, "Format of Bulk Data Entries": field 10 of a line equals field 1 of its continuation.

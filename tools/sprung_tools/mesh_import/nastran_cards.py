@@ -46,14 +46,22 @@ class Card(NamedTuple):
 
     def real(self, place: int, what: str) -> float:
         """A field's number, 0 if it is blank. what: its meaning, for the message."""
-        text = SHORT_EXPONENT.sub(r"\1e\2", self.field(place).upper().replace("D", "E"))
-        try:
-            value = parse_real(text or "0")
-        except ValueError:
-            value = np.nan
+        value = self._parse(place)
         if not np.isfinite(value):
             self.fail(f"'{self.field(place)}' is no {what}")
         return value
+
+    def is_filled(self, place: int) -> bool:
+        """Whether a field says something: it is neither blank nor the number 0."""
+        return self._parse(place) != 0.0
+
+    def _parse(self, place: int) -> float:
+        """A field's number, 0 if it is blank, NaN if it is none."""
+        text = SHORT_EXPONENT.sub(r"\1e\2", self.field(place).upper().replace("D", "E"))
+        try:
+            return parse_real(text or "0")
+        except ValueError:
+            return np.nan
 
 
 class Cards(NamedTuple):

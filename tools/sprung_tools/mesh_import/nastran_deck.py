@@ -15,10 +15,12 @@ from sprung_tools.mesh_import.frame_properties import Material, Section
 from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER, MOST_MEMBERS, LineMesh, pick_members, shorten
 from sprung_tools.mesh_import.nastran_cards import Card, read_cards
 from sprung_tools.mesh_import.nastran_coordinates import CoordinateSystems
+from sprung_tools.mesh_import.nastran_fields import find_not_taken
 
 WITH_DIRECTION = {"CBAR", "CBEAM"}  # id, property, 2 nodes, orientation (3 numbers or a node), …
-WITH_PROPERTY = {"CROD", "CTUBE"}  # id, property, 2 nodes
+WITH_PROPERTY = {"CROD", "CTUBE"}  # id, property, 2 nodes; in NASTRAN-95 the same again for a second element
 LINE_CARDS = WITH_DIRECTION | WITH_PROPERTY | {"CONROD"}  # CONROD: id, 2 nodes, material, area …
+TWICE = {"CDAMP3", "CDAMP4", "CELAS3", "CELAS4", "CMASS3", "CMASS4", "PLOTEL"}  # may have a second id in their field 6
 DEFAULTS = {"BAROR": "CBAR", "BEAMOR": "CBEAM"}  # gives property and orientation to the cards that lack them
 KINDS = {
     "CBAR": "bending, with shear if its property has K1, K2",
@@ -33,7 +35,8 @@ def read_nastran(path: str) -> LineMesh:
     found = read_cards(path)
     deck = Deck(path)
     for card in found.cards:
-        deck.read(card)
+        for one in divide(card):
+            deck.read(one)
     if found.before:
         deck.left_behind.append(f"executive and case control ({len(found.before)} lines)")
     mesh = deck.make_mesh()
@@ -61,11 +64,14 @@ class Deck:
         self.mass_factor: float | None = None  # PARAM,WTMASS
         self.node_sets: dict[str, list[int]] = {}  # name → node ids
         self.others: dict[str, list[str]] = {}  # name of any other card → ids
+        self.not_taken: dict[tuple[str, str], dict[str, None]] = {}  # (card, what stands in its fields) → ids
         self.not_kept: dict[str, list[int]] = {"hinges (pin flags)": [], "offsets": []}  # element ids
         self.left_behind: list[str] = []
 
     def read(self, card: Card) -> None:
         """Takes in one card."""
+        for what in find_not_taken(card):
+            self.not_taken.setdefault((card.name, what), {})[card.field(0)] = None
         if card.name == "GRID":
             self.read_node(card)
         elif card.name in LINE_CARDS:
@@ -90,7 +96,8 @@ class Deck:
                 card.fail(f"set {card.field(0)} is defined twice")
             self.node_sets[name] = list(read_members(card))
         else:
-            self.others.setdefault(card.name, []).append(card.field(0))
+            places = (0, 4) if card.name in TWICE and card.field(4) else (0,)
+            self.others.setdefault(card.name, []).extend(card.field(place) for place in places)
 
     def keep(self, card: Card, kept: dict[str, Card]) -> None:
         """Keeps a property or a material by its number."""
@@ -250,8 +257,20 @@ class Deck:
             for name, count in kinds.items()
         ]
         texts += [f"{what} of elements {shorten(found)}" for what, found in self.not_kept.items() if found]
+        texts += [
+            f"{what} of {name} {shorten(filter(None, found))}".rstrip()
+            for (name, what), found in self.not_taken.items()
+        ]
         texts += [f"{name} {shorten(filter(None, found))}".rstrip() for name, found in self.others.items()]
         return texts + self.left_behind
+
+
+def divide(card: Card) -> list[Card]:
+    """The card itself; two of a CROD or CTUBE with a second element in its second half."""
+    if card.name not in WITH_PROPERTY or not any(card.fields[4:8]):
+        return [card]
+    first = card._replace(fields=[*card.fields[:4], *[""] * 4, *card.fields[8:]])
+    return [first, card._replace(fields=card.fields[4:8])]
 
 
 def multiply_masses(mesh: LineMesh, factor: float) -> None:

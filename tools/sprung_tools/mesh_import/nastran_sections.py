@@ -122,7 +122,11 @@ def read_shaped_section(card: Card, text: str, material: str) -> Section:
         return Section(text, material, None, left_out=(f"the shape {kind}, and the mass per length behind it",))
     shape = make_shape(make, dimensions)
     rest = [one for one in card.fields[8 + count + 1 :] if one]
-    left_out = ("its further stations: the section at end A is taken",) if card.name == "PBEAML" and rest else ()
+    left_out: tuple[str, ...] = ()
+    if card.name == "PBEAML" and rest:
+        left_out = ("its further stations, with their mass per length: the section at end A is taken",)
+    if card.name == "PBARL" and any(card.is_filled(k) for k in range(8 + count + 1, len(card.fields))):
+        left_out += ("what stands behind its mass per length",)
     unequal = any(dimensions[a] != dimensions[b] for a, b in EQUAL_DIMENSIONS.get(kind, ()))
     if unequal or kind in WITH_OTHER_CENTRE:
         left_out += ("the way from its shear centre, where Nastran has the axis, to its centroid",)
@@ -132,24 +136,46 @@ def read_shaped_section(card: Card, text: str, material: str) -> Section:
 def read_beam_section(card: Card, text: str, material: str) -> Section:
     """Reads a PBEAM at its end A."""
     moments = [card.real(place, "second moment") for place in (3, 4, 5)]
-    first = card.fields[2:6]
-    left_out: list[str] = []
-    # Further stations begin with whether there are stresses: then follow their place and the same numbers again.
-    for start in range(8, len(card.fields), 8):
-        there = card.fields[start + 2 : start + 6]
-        if is_station(card, start) and any(one and one != other for one, other in zip(there, first)):
-            left_out.append("its taper: the section at end A is taken")
-            break
-    # Behind the stations stand two lines: K1, …, and M1(A), M2(A), M1(B), M2(B), N1(A), N2(A), N1(B), N2(B).
-    place = 8 if is_station(card, 8) else 16
-    while is_station(card, place):
-        place += 16 if card.field(place).upper() == "YES" else 8
-    if any(card.field(k) and card.real(k, "offset") for k in range(place + 8, place + 16)):
-        left_out.append("the offsets of its mass and its neutral axis from its shear centre (M1, M2, N1, N2)")
+    left_out, place = compare_stations(card)
+    # Behind the stations stand K1, K2, S1, S2, NSI(A), NSI(B), CW(A), CW(B), then M1(A), M2(A), M1(B), …, N2(B).
+    for what, places in (
+        ("its torsion constant (J)", range(6, 7)),
+        ("its stress points (C1 to F2)", range(0) if is_station(card, 8) else range(8, 16)),
+        ("the relief of shear by its taper (S1, S2)", range(place + 2, place + 4)),
+        ("the moment of inertia of its non-structural mass (NSI)", range(place + 4, place + 6)),
+        ("its warping (CW)", range(place + 6, place + 8)),
+        ("the offsets of its mass and its neutral axis from its shear centre (M1, M2, N1, N2)",
+         range(place + 8, place + 16)),
+        ("what stands behind these fields", range(place + 16, len(card.fields))),
+    ):  # fmt: skip
+        if any(card.is_filled(k) for k in places):
+            left_out.append(what)
     return Section(
         text, material, make_general(card, card.real(2, "area"), moments), True, card.real(7, "mass per length"),
         (*left_out, "shear flexibility (K1, K2 are 1 unless given)"),
     )  # fmt: skip
+
+
+def compare_stations(card: Card) -> tuple[list[str], int]:
+    """Returns (what of the further stations of a PBEAM differs from end A, the place behind them).
+
+    A station begins with whether there are stresses; then follow its place and the numbers of end A again, which are
+    those of end A where they are blank. Behind YES stands a line of stress points.
+    """
+    left_out: dict[str, None] = {}
+    place = 8 if is_station(card, 8) else 16
+    while is_station(card, place):
+        given = [k for k in (2, 3, 4, 5, 7) if card.field(place + k)]
+        changed = [k for k in given if card.real(place + k, "number") != card.real(k, "number")]
+        if set(changed) - {7}:
+            left_out["its taper: the section at end A is taken"] = None
+        if 7 in changed:
+            there, here = card.real(place + 7, "number"), card.real(7, "number")
+            text = f"its non-structural mass of {there:g} per length at a further station: that of end A, {here:g}"
+            left_out[f"{text}, is taken"] = None
+        has_points = card.field(place).upper() == "YES" and not is_station(card, place + 8)
+        place += 16 if has_points else 8
+    return list(left_out), place
 
 
 def is_station(card: Card, place: int) -> bool:
