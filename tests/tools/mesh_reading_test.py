@@ -90,6 +90,30 @@ class Reading(ToolTestCase):
         turned = mesh.positions[mesh.lines[mesh.element_sets["post"][-1]]]
         np.testing.assert_allclose(turned[:, :2], [(1.2, -0.8), (0.75, -0.35)], atol=1e-11)  # Line 3 runs 1 → 3
 
+    def test_gmsh_entities_without_a_group_are_read(self):
+        # Curve 2 of the portal, elements 6 to 9, loses its group; gmsh writes such files by Mesh.SaveAll = 1.
+        text = (FEM_DATA / "portal_41.msh").read_text(encoding="utf-8")
+        whole = read_with_meshio(str(FEM_DATA / "portal_41.msh"))
+        mesh = read_with_meshio(self.write("a.msh", text.replace(" 0.7 1 2 2 2 -3", " 0.7 0 2 2 -3")))
+        np.testing.assert_array_equal(mesh.lines, whole.lines)
+        self.assertEqual(mesh.element_sets["rail"].tolist(), whole.element_sets["rail"].tolist())
+        self.assertEqual(list(mesh.element_sets["post"]), [n for n in whole.element_sets["post"] if not 3 <= n < 7])
+        self.assertEqual(list(make_plane_frame(mesh).curves), ["rail", "post", "lines"])
+
+    def test_a_gmsh_2_curve_in_two_groups_is_not_doubled(self):
+        # The format repeats the elements of such a curve for each group; elements 4 and 5 close a circle.
+        path = self.write("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+                          '$PhysicalNames\n3\n1 1 "a"\n1 2 "b"\n1 3 "c"\n$EndPhysicalNames\n'
+                          "$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 2 0 0\n$EndNodes\n$Elements\n5\n"
+                          "1 1 2 1 1 1 2\n2 1 2 2 1 1 2\n3 1 2 -3 1 2 1\n4 1 2 1 2 2 3\n5 1 2 1 2 3 2\n"
+                          "$EndElements\n")  # fmt: skip
+        mesh = read_with_meshio(path)
+        self.assertEqual(mesh.lines.tolist(), [[0, 1], [1, 2], [2, 1]])
+        self.assertEqual({name: lines.tolist() for name, lines in mesh.element_sets.items()},
+                         {"a": [0, 1, 2], "b": [0], "c": [0]})  # fmt: skip
+        refused = self.run_tool("convert_mesh", "a.msh", "out.msh")
+        self.assert_refuses(refused, "element 1 is in the sets 'c' and 'a'", "--sections")
+
     def test_lines_with_middle_nodes_are_divided_at_these(self):
         points = np.array([[x, y, 0.0] for x, y in ((0, 0), (4, 0), (8, 2), (2, 0.5), (6, 1), (8, 6), (8, 5), (8, 4))])
         cells = [("line3", [[0, 1, 3], [1, 2, 4], [5, 7, 6]]), ("line", [[7, 2]])]

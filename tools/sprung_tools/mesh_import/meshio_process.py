@@ -9,8 +9,10 @@ import multiprocessing
 import os
 import resource
 from multiprocessing.connection import Connection
+from typing import Any
 
 import meshio
+from meshio.gmsh import _gmsh41
 
 from sprung_tools.files.errors import InputError
 
@@ -47,6 +49,7 @@ def read_and_send(path: str, file_format: str | None, sender: Connection) -> Non
     limit(resource.RLIMIT_CPU, round(SECONDS + SECONDS_PER_BYTE * size))
     said = io.StringIO()
     answer: meshio.Mesh | str
+    give_every_entity_a_group()
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             answer = meshio.read(path, file_format=file_format)
@@ -57,6 +60,21 @@ def read_and_send(path: str, file_format: str | None, sender: Connection) -> Non
         answer = f"{type(error).__name__}: {text}"
     with contextlib.suppress(MemoryError):
         sender.send(answer)
+
+
+def give_every_entity_a_group() -> None:
+    """Lets meshio read gmsh 4.1 files in which some entities are in no group: these get the group 0.
+
+    It takes no group from an entity without one, and then refuses the file, because groups and elements differ in
+    number. https://github.com/nschloe/meshio/blob/v5.0.0/src/meshio/gmsh/_gmsh41.py, `_read_elements`
+    """
+    read_entities = _gmsh41._read_entities
+
+    def read_with_groups(*arguments: Any) -> tuple[Any, Any]:
+        groups_of, bounding_entities = read_entities(*arguments)
+        return [{tag: groups or [0] for tag, groups in one.items()} for one in groups_of], bounding_entities
+
+    _gmsh41._read_entities = read_with_groups
 
 
 def limit(what: int, most: int) -> None:

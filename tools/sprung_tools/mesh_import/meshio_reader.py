@@ -1,6 +1,7 @@
 """Reading the frame in any of the formats that meshio reads. The sets keep the names that they have in the file."""
 
 import os
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import meshio
@@ -35,6 +36,10 @@ def read_with_meshio(path: str) -> LineMesh:
     if not np.all(np.isfinite(positions)):
         raise InputError(f"{path}: error: coordinates are not finite")
     element_sets, node_sets = read_sets(mesh, starts)
+    if has_numbers(mesh, "gmsh:geometrical") and has_numbers(mesh, "gmsh:physical"):
+        kept, numbers = find_repeated(mesh, starts)
+        lines = lines[kept]
+        element_sets = {name: np.unique(numbers[members]) for name, members in element_sets.items()}
     return LineMesh(
         path=path,
         format=f"{format_name} file",
@@ -74,6 +79,36 @@ def orient(mesh: meshio.Mesh, place: int) -> Integers:
         reversed_ = np.asarray(mesh.cell_data["gmsh:physical"][place]) < 0
         lines[reversed_] = lines[reversed_][:, ::-1]
     return lines
+
+
+def has_numbers(mesh: meshio.Mesh, key: str) -> bool:
+    """Whether the mesh has cell data of a name, a whole number for each cell."""
+    blocks = [np.asarray(one) for one in mesh.cell_data.get(key, ())]
+    return bool(blocks) and all(one.ndim == 1 and is_of_kind(one, "iu") for one in blocks)
+
+
+def find_repeated(mesh: meshio.Mesh, starts: Mapping[int, int]) -> tuple[Integers, Integers]:
+    """Returns (places of the lines that stand for themselves, for each line its number among these).
+
+    A gmsh 2.2 file repeats the elements of a curve for each group of the curve. Elements of the same group between
+    the same nodes are no repetitions: such are the two of a circle.
+    """
+    kept: list[int] = []
+    number_of: dict[tuple[int, ...], int] = {}
+    numbers: list[int] = []
+    seen: Counter[tuple[int, ...]] = Counter()
+    for block in starts:
+        entities = mesh.cell_data["gmsh:geometrical"][block]
+        groups = mesh.cell_data["gmsh:physical"][block]
+        pairs = np.sort(mesh.cells[block].data, axis=1)
+        for entity, group, (a, b) in zip(entities.tolist(), groups.tolist(), pairs.tolist()):
+            seen[entity, a, b, abs(group)] += 1
+            key = (entity, a, b, seen[entity, a, b, abs(group)])
+            if key not in number_of:
+                number_of[key] = len(kept)
+                kept.append(len(numbers))
+            numbers.append(number_of[key])
+    return np.array(kept, dtype=int), np.array(numbers, dtype=int)
 
 
 def call_meshio(path: str) -> tuple[meshio.Mesh, str]:
@@ -202,6 +237,8 @@ def find_block_sets(mesh: meshio.Mesh, place: int, size: int) -> Iterator[tuple[
         if key in NOT_SETS or values.shape != (size,) or values.dtype.kind not in "iu":
             continue
         for value in np.unique(values):
+            if key == "gmsh:physical" and value == 0:  # in no group
+                continue
             yield name_set(mesh, key, int(value), mesh.cells[place].dim), np.flatnonzero(values == value)
 
 
