@@ -38,7 +38,7 @@ class PlotSensitivity(ToolTestCase):
     def test_all_words_are_in_the_picture(self):
         # A frame of such a height that an aspect of the panels that changes their limits gives them wider tick labels.
         elements = read_elements(self.folder / "chassis.json")
-        for height in (0.0, 0.5, 1.1, 4.0):
+        for height in (0.0, 0.5, 1.1, 4.0, 8.9, 9.1, 30.0):
             points = np.linspace([0.0, 0.0], [4.5, 0.0], 13)
             points[:, 1] = height * np.sin(np.linspace(0.0, np.pi, 13))
             frame = elements._replace(ends=np.stack([points[:-1], points[1:]], axis=1))
@@ -49,6 +49,39 @@ class PlotSensitivity(ToolTestCase):
                 self.assertGreaterEqual(min(box.x0, box.y0), 0.0)
                 self.assertLessEqual(box.x1, figure.get_figwidth())
                 self.assertLessEqual(box.y1, figure.get_figheight())
+
+    def test_springs_have_no_colour(self):
+        # Of a spring, which has no cross section, the effect of 1 % more of it would be the largest of all.
+        design = (
+            '[materials.s]\nyoungs_modulus = 2.1e11\ndensity = 7850.0\n[sections.r]\nmaterial = "s"\narea = 1e-2\n'
+            "second_moment = 1e-5\n[points]\na = [0.0, 0.0]\nb = [3.0, 0.0]\nc = [0.0, 0.6]\nd = [3.0, 0.6]\n"
+            '[[lines]]\nfrom = "a"\nto = "b"\nsection = "r"\nelements = 6\n'
+            '[[lines]]\nfrom = "c"\nto = "d"\nsection = "r"\nelements = 6\n'
+            + "".join(f'[[springs]]\nfrom = "{one}"\nto = "{other}"\naxial_stiffness = 2e6\n'
+                      "rotational_stiffness = 3e4\n" for one, other in ("ac", "bd"))
+            + '[reference]\npoint = "a"\n[modes]\ncount = 3\ndamping_ratio = 0.01\n'
+        )  # fmt: skip
+        (self.folder / "two.toml").write_text(design, encoding="utf-8")
+        command = [os.environ["SPRUNG_REDUCE"], "sensitivity", "two.toml", "--json"]
+        (self.folder / "two.json").write_text(run_program(command, cwd=self.folder, check=True).stdout, encoding="utf-8")
+        elements = read_elements(self.folder / "two.json")
+        self.assertEqual(elements.is_spring.tolist(), [False] * 12 + [True] * 2)
+        figure = make_sensitivity_figure(elements, [1])
+        coloured, grey = figure.axes[0].collections
+        self.assertEqual(len(coloured.get_segments()), 12)
+        self.assertEqual(len(grey.get_segments()), 2)
+        density = elements.effect[:12, 0] / 0.5  # m, of each element
+        np.testing.assert_allclose(coloured.get_clim()[1], np.max(np.abs(density)))
+        self.assertIn("springs, which have no cross section", "".join(text.get_text() for text in figure.texts))
+
+    def test_a_frame_that_stands_fills_the_picture(self):
+        elements = read_elements(self.folder / "chassis.json")
+        mast = elements._replace(ends=elements.ends[:, :, ::-1].copy())
+        figure = make_sensitivity_figure(mast, [1, 2, 3])
+        figure.savefig(self.folder / "out.png")
+        boxes = [axes.get_tightbbox() for axes in figure.axes]
+        self.assertLess(min(box.x0 for box in boxes), 0.2 * figure.bbox.width)
+        self.assertGreater(max(box.x1 for box in boxes), 0.8 * figure.bbox.width)
 
     def test_other_files_and_modes_are_refused(self):
         process = self.run_tool("plot_sensitivity", "-o", "out.svg", "chassis.json", "--modes", "7")

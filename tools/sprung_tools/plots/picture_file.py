@@ -33,16 +33,16 @@ SETTINGS = {"font.size": 11, "axes.titlesize": 12, "axes.spines.top": False, "ax
 
 
 def make_figure(
-    heights: Sequence[float], title: str, caption: str, one_axis: bool = True
+    heights: Sequence[float], title: str, caption: str, one_axis: bool = True, columns: int = 1
 ) -> tuple[Figure, Panels]:  # fmt: skip
-    """Makes a figure of panels one above the other. Returns (figure, panels).
+    """Makes a figure of rows of panels. Returns (figure, panels, row by row).
 
-    heights: of the panels [inches]; caption: the small print under them; one_axis: whether they share what is drawn
-    over.
+    heights: of the rows [inches]; caption: the small print under them; one_axis: whether they share what is drawn
+    over; columns: panels in each row.
     """
     matplotlib.rcParams.update(SETTINGS)
     figure = Figure(figsize=(WIDTH, MARGIN_HEIGHT + sum(heights)), layout="constrained")
-    panels = figure.subplots(len(heights), sharex=one_axis, squeeze=False, height_ratios=heights)[:, 0]
+    panels = figure.subplots(len(heights), columns, sharex=one_axis, squeeze=False, height_ratios=heights).ravel()
     figure.suptitle(title)
     figure.supxlabel(caption, fontsize=8.5, color="0.25")
     return figure, panels
