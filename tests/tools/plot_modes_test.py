@@ -7,8 +7,11 @@ import unittest
 import h5py
 import numpy as np
 from mode_runs import write_adaptive_run
-from synthetic_results import write_results
+from synthetic_results import NUM_SAMPLES, write_results, write_series
 from tool_test_case import ToolTestCase
+
+from sprung_tools.plots.mode_history_picture import make_mode_history_figure
+from sprung_tools.runs.labelled_runs import Shown, open_runs
 
 SHARES = (
     "displacement_rms",
@@ -124,6 +127,25 @@ class PlotModes(ToolTestCase):
         texts = read_texts(self.draw_svg("fixed.h5", "--over-time"))
         self.assertIn("chassis: all 3 vectors of the run take part throughout", texts)
         self.assertNotIn("left out, %", texts)
+
+    def test_over_time_a_constant_share_lies_below_the_upper_edge(self):
+        path = write_adaptive_run(self.folder / "constant.h5", numbers=(1,), is_adaptive=False)
+        with h5py.File(path, "a") as file:
+            write_series(file, "bodies/chassis/modal/neglected", np.tile((0.352, 2e-12, 3.0), (NUM_SAMPLES, 1)), "1")
+        (run,) = open_runs([path])
+        figure = make_mode_history_figure([run], [Shown("a", "bodies/chassis/acceleration.y")], (None, None))
+        self.assertGreaterEqual(figure.axes[1].get_ylim()[1], 1.5 * 35.2)  # %
+        heading = "chassis: the only mode of the run takes part throughout"
+        self.assertEqual(figure.axes[0].get_title(loc="left"), heading)
+        self.assertEqual(run.label, "chassis 1 mode")
+
+    def test_shares_that_are_too_small_to_be_drawn_are_told(self):
+        write_choice(self.folder / "choice.h5")
+        told = "shares below 1e-06 are drawn as 1e-06"
+        self.assertNotIn(told, read_texts(self.draw_svg("choice.h5")))
+        with h5py.File(self.folder / "choice.h5", "a") as file:
+            file["model/mode_choice/share/static"][1] = 1e-8
+        self.assertIn(told, read_texts(self.draw_svg("choice.h5")))
 
     def test_over_time_a_run_without_modes_is_refused(self):
         write_results(self.folder / "rigid.h5", num_modes=0)

@@ -7,6 +7,11 @@ import h5py
 import numpy as np
 from tool_test_case import ToolTestCase
 
+from sprung_tools.plots.picture_file import write_picture
+from sprung_tools.plots.response_picture import BANDS, MAGNITUDE, SPECTRUM, make_response_figure
+from sprung_tools.runs.labelled_responses import open_responses
+from sprung_tools.runs.labelled_runs import Shown
+
 SEAT = "points/chassis.seat/acceleration.y"
 
 
@@ -59,12 +64,13 @@ class PlotResponse(ToolTestCase):
     def test_spectra_with_their_rms(self):
         texts, curves = self.draw_svg("a.h5", "--show", SEAT, "--spectrum")
         self.assertIn("a.h5: r.m.s. 0.125 m/s²", texts)
-        self.assertIn(f"{SEAT}, (m/s²)²/Hz", texts)
+        self.assertEqual(["points/chassis.seat/", "acceleration.y, (m/s²)²/Hz"],
+                         [text for text in texts if text in "points/chassis.seat/acceleration.y, (m/s²)²/Hz"])
         self.assertEqual(len(curves), 1)
 
     def test_third_octave_bands_beside_the_boundaries_of_reduced_comfort(self):
         texts, _ = self.draw_svg("a.h5", "--show", f"seat={SEAT}", "--bands")
-        for text in ("a.h5", "seat: r.m.s. in third-octave bands, m/s²", "reduced comfort after …", "8 h"):
+        for text in ("a.h5", "seat: r.m.s., m/s²", "reduced comfort after …", "8 h"):
             self.assertIn(text, texts)
         self.assert_refuses(self.run_tool("plot_response", "-o", "out.png", "b.h5", "--show", SEAT, "--bands"),
                             "has no spectra")  # fmt: skip
@@ -72,6 +78,23 @@ class PlotResponse(ToolTestCase):
             file["frequency"][:] *= 20.0  # too coarse a grid
         self.assert_refuses(self.run_tool("plot_response", "-o", "out.png", "a.h5", "--show", SEAT, "--bands"),
                             "a.h5: error: no third-octave band from 0.5 to 80 Hz has 8 frequencies")  # fmt: skip
+
+    def test_labels_of_panels_do_not_meet_and_axes_have_several_numbers(self):
+        write_response(self.folder / "c.h5")
+        with h5py.File(self.folder / "c.h5", "a") as file:
+            file[f"outputs/{SEAT}/spectrum"][:] = 10.0 + file["frequency"][:]  # its bands lie within one power of ten
+        for drawing in (MAGNITUDE, SPECTRUM, BANDS):
+            responses = open_responses([f"{self.folder}/c.h5"])
+            shown = [Shown(label, SEAT) for label in (SEAT, "a name of some seat that goes on and on and on, and on")]
+            figure = make_response_figure(responses, shown, "", drawing)
+            write_picture(figure, self.folder / "out.png")
+            figure.draw_without_rendering()
+            for axes in figure.axes:
+                panel, label = axes.get_window_extent(), axes.yaxis.label.get_window_extent()
+                self.assertLess(label.height, 1.1 * panel.height)
+                inside = [one for one in axes.get_yticklabels(which="both") if one.get_text()
+                          and axes.get_ylim()[0] <= one.get_position()[1] <= axes.get_ylim()[1]]  # fmt: skip
+                self.assertGreaterEqual(len(inside), 2)
 
     def test_commands_that_take_runs_say_which_draw_a_response(self):
         for tool in ("report", "plot_results"):

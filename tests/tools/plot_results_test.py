@@ -10,6 +10,10 @@ import numpy as np
 from synthetic_results import write_results
 from tool_test_case import ToolTestCase
 
+from sprung_tools.plots.picture_file import write_picture
+from sprung_tools.plots.results_picture import make_results_figure
+from sprung_tools.runs.labelled_runs import Shown, open_runs
+
 DISPLACEMENT = "heave=bodies/chassis/displacement.y"
 
 
@@ -41,13 +45,26 @@ class PlotResults(ToolTestCase):
         quantity = f"{2000 * 'seat'} 1=bodies/chassis/displacement.y"
         texts, _ = self.draw_svg(f"{2000 * 'rigid'} one=a.h5", "soft=b.h5", "--show", quantity)
         for start, end, least, most in (
-            ("a long name ", "long name ", 50, 100), ("rigid", "one", 50, 100), ("seat", "1, mm", 25, 60),
+            ("a long name ", "long name ", 50, 100), ("rigid", "one", 50, 100), ("seat", "seat", 25, 60),
         ):  # fmt: skip
             (text,) = [text for text in texts if text.startswith(start)]
             self.assertRegex(text, f"…[^…]*{re.escape(end)}$")
             self.assertTrue(least <= len(text) <= most, text)
         self.assertIn("soft", texts)
+        self.assertIn("1, mm", texts)
         self.assert_succeeds(self.run_tool("plot_results", "-o", "out.png", "a.h5", "--show", DISPLACEMENT))
+
+    def test_a_legend_with_a_long_name_stands_above_the_curves(self):
+        for label, is_above in (("rigid", False), ("a very long name of a run of the rigid truck", True)):
+            runs = open_runs([f"{label}={self.folder}/a.h5"])
+            shown = [Shown("heave", "bodies/chassis/displacement.y")]
+            figure = make_results_figure(runs, shown, (None, None), "", with_road=True)
+            write_picture(figure, self.folder / "out.png")
+            figure.draw_without_rendering()
+            (axes,) = figure.axes
+            box = axes.get_legend().get_window_extent()
+            self.assertEqual(box.y0 >= axes.get_window_extent().y1, is_above)
+            self.assertLessEqual(box.y1, figure.bbox.y1)
 
     def test_each_run_has_a_curve_of_its_own_colour(self):
         _, colours = self.draw_svg("rigid=a.h5", "soft=b.h5", "--show", DISPLACEMENT)

@@ -43,7 +43,7 @@ def read_vectors(results: ResultsFile, body: str) -> list[Vector]:
 def count_vectors(vectors: Sequence[Vector]) -> str:
     """`6 modes`; `17 vectors` where some are no modes of the body."""
     is_modes = all(one.kind in ("", *OF_THE_BODY) for one in vectors)
-    return f"{len(vectors)} {'modes' if is_modes else 'vectors'}"
+    return f"{len(vectors)} {'mode' if is_modes else 'vector'}{'s' * (len(vectors) != 1)}"
 
 
 def describe_vectors(vectors: Sequence[Vector]) -> str:

@@ -20,7 +20,7 @@ from sprung_tools.files.hdf5_file import (
     read_texts,
 )
 from sprung_tools.files.stored_file import StoredFile
-from sprung_tools.plots.picture_file import COLOURS, PANEL_HEIGHT, label_unit, line_style, make_figure
+from sprung_tools.plots.picture_file import COLOURS, PANEL_HEIGHT, add_legend, label_unit, line_style, make_figure
 
 GROUP = "model/mode_choice"
 SHARES = {
@@ -29,7 +29,7 @@ SHARES = {
     "forces": ("share/force_rms", "share/force_peak"),
     "static": ("share/static",),
 }
-LEAST_SHARE = 1e-6  # drawn for modes that contribute less
+LEAST_SHARE = 1e-6  # where those of less are drawn
 
 
 class Choice(NamedTuple):
@@ -95,7 +95,7 @@ def draw_curves(axes: Axes, choice: Choice, names: Mapping[str, str], label: str
             axes.loglog(frequency, np.where(values > 0.0, values, np.nan), label=name, **line_style(place, len(names)))
     mark_modes(axes, choice)
     axes.set_ylabel(f"{label}, {label_unit(unit)}")
-    axes.legend(loc="best", frameon=False)
+    add_legend(axes)
 
 
 def draw_shares(axes: Axes, choice: Choice) -> None:
@@ -112,7 +112,7 @@ def draw_shares(axes: Axes, choice: Choice) -> None:
     if choice.tolerance > 0.0:
         axes.axhline(choice.tolerance, color="0.3", linewidth=0.9, linestyle="--", label="tolerance, of all left out")
     axes.set_ylabel("share of a mode alone")
-    axes.legend(loc="best", frameon=False)
+    add_legend(axes)
 
 
 def make_choice_figure(choice: Choice, title: str = "") -> Figure:
@@ -122,6 +122,8 @@ def make_choice_figure(choice: Choice, title: str = "") -> Figure:
         f"{np.count_nonzero(choice.is_kept)} of {len(choice.is_kept)} modes kept (filled); speed "
         f"{read_real(choice.file, 'model', 'speed'):g} m/s; linearised about static equilibrium"
     )
+    if any(np.any(choice.share(datasets) < LEAST_SHARE) for datasets in SHARES.values()):
+        caption += f";\nshares below {LEAST_SHARE:g} are drawn as {LEAST_SHARE:g}"
     title = title or read_text(choice.file, "", "title")
     figure, panels = make_figure([PANEL_HEIGHT] * (3 if points else 2), title, caption)
     draw_curves(panels[0], choice, {"road": "road"}, "road under the front wheel")

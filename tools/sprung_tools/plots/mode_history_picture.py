@@ -26,6 +26,7 @@ INDICATOR_HEIGHT, QUANTITY_HEIGHT = 1.9, 2.8  # inches
 LEAST_HEIGHT, HEIGHT_PER_MODE, MOST_HEIGHT = 1.3, 0.12, 4.2  # inches, of a panel with modes
 LABELLED_FREQUENCIES = 9  # at most beside the modes of a panel
 LEAST_PERCENT = 1e-3  # where the panel of shares begins
+ABOVE = 2.0  # its upper end over the largest share
 NEGLECT = {"deflection": COLOURS[0], "acceleration": COLOURS[2]}  # the first columns of `neglected`
 
 
@@ -33,6 +34,8 @@ def describe_activity(results: ResultsFile, history: ModeHistory) -> str:
     """The title above a body's modes. It is about the whole run, even if only a part of the run is drawn."""
     number = count_vectors(history.vectors)
     if np.all(history.is_active):
+        if len(history.vectors) == 1:
+            return f"{history.body}: the only {number.split()[1]} of the run takes part throughout"
         return f"{history.body}: all {number} of the run take part throughout"
     counts = np.sum(history.is_active, axis=1)
     changes = find_change_times(results).size
@@ -87,7 +90,7 @@ def draw_neglected(axes: Axes, results: ResultsFile) -> None:
     if adaptivity.get("enabled"):
         recall = adaptivity["recall"]
         axes.axhline(100.0 * recall, color="0.3", linewidth=0.9, linestyle="--", label=f"recall, {100.0 * recall:g} %")
-    axes.set_ylim(LEAST_PERCENT, None)
+    axes.set_ylim(LEAST_PERCENT, ABOVE * max(axes.dataLim.ymax, LEAST_PERCENT))
     axes.set_ylabel("left out, %")
     axes.grid(color="0.9", linewidth=0.6)
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderpad=0.0, frameon=False, fontsize=9.5)

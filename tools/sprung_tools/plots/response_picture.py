@@ -8,14 +8,17 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterSciNotation
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_real, read_text
-from sprung_tools.plots.picture_file import PANEL_HEIGHT, label_unit, line_style, make_figure
+from sprung_tools.plots.picture_file import PANEL_HEIGHT, add_legend, label_unit, line_style, make_figure
 from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.labelled_runs import Shown
 from sprung_tools.runs.ride_of_response import LEAST_IN_BAND, calc_linear_bands
 from sprung_tools.signals.third_octaves import BOUNDED, NOMINAL, PROFICIENCY, calc_comfort_boundary
+
+LABELLED_DECADES = (2.0, 0.5)  # of an axis, below which some and all of the ticks between powers of ten have numbers
 
 
 def draw_response_panel(axes: Axes, responses: Sequence[Response], shown: Shown, is_spectrum: bool) -> None:
@@ -30,7 +33,7 @@ def draw_response_panel(axes: Axes, responses: Sequence[Response], shown: Shown,
             axes.loglog(response.frequency, values, label=label, **line_style(place, len(responses)))
     axes.set_ylabel(f"{shown.label}, {label_unit(unit)}" if unit else shown.label)
     axes.grid(which="both", color="0.9", linewidth=0.6)
-    axes.legend(loc="best", frameon=False)
+    add_legend(axes)
 
 
 def draw_bands_panel(axes: Axes, responses: Sequence[Response], shown: Shown) -> None:
@@ -55,9 +58,9 @@ def draw_bands_panel(axes: Axes, responses: Sequence[Response], shown: Shown) ->
             axes.loglog(bounded, boundary, color="0.6", linewidth=0.8, linestyle="--")
             axes.annotate(exposure, (bounded[-1], boundary[-1]), color="0.4", fontsize=8.5, va="center")
         axes.plot([], [], color="0.6", linewidth=0.8, linestyle="--", label="reduced comfort after …")
-    axes.set_ylabel(f"{shown.label}: r.m.s. in third-octave bands, {label_unit(unit)}")
+    axes.set_ylabel(f"{shown.label}: r.m.s., {label_unit(unit)}")
     axes.grid(which="both", color="0.9", linewidth=0.6)
-    axes.legend(loc="best", frameon=False)
+    add_legend(axes)
 
 
 class Drawing(NamedTuple):
@@ -69,7 +72,7 @@ class Drawing(NamedTuple):
 
 MAGNITUDE = Drawing("response to the road", partial(draw_response_panel, is_spectrum=False))
 SPECTRUM = Drawing("spectral density on a random road", partial(draw_response_panel, is_spectrum=True))
-BANDS = Drawing("third-octave bands on a random road, boundaries of ISO 2631:1978", draw_bands_panel)
+BANDS = Drawing("r.m.s. in third-octave bands on a random road, boundaries of ISO 2631:1978", draw_bands_panel)
 
 
 def make_response_figure(
@@ -83,5 +86,6 @@ def make_response_figure(
     figure, panels = make_figure([PANEL_HEIGHT] * len(outputs), title, caption)
     for axes, shown in zip(panels, outputs):
         drawing.draw_panel(axes, responses, shown)
+        axes.yaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=LABELLED_DECADES))
     panels[-1].set_xlabel("frequency, Hz")
     return figure

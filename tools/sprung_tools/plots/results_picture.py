@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.plots.history_panel import draw_panel
-from sprung_tools.plots.picture_file import PANEL_HEIGHT, make_figure
+from sprung_tools.plots.picture_file import PANEL_HEIGHT, add_legend, make_figure
 from sprung_tools.runs.labelled_runs import Run, Shown, samples_between
 from sprung_tools.runs.run_caption import make_caption
 from sprung_tools.signals.spans import OptionalSpan
@@ -73,7 +73,7 @@ def make_results_figure(
     for place, (axes, shown) in enumerate(zip(panels, quantities)):
         is_shown_by_all = draw_panel(axes, runs, shown, span)
         if place == 0 or not is_shown_by_all:  # else the legend above holds here too
-            axes.legend(loc="best", frameon=False)
+            add_legend(axes)
         mark_obstacles(axes, obstacles)
     panels[-1].set_xlabel("time, s")
     return figure
