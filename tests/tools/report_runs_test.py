@@ -114,6 +114,30 @@ class Runs(ReportCase):
         for channel in (one for one in data["runs"][0]["channels"] if one["group"] == "Vertical motion"):
             self.assertFalse(np.any(decode(channel["v"])), channel["name"])
 
+    def test_rounding_that_stiff_springs_turn_into_acceleration_is_nothing(self):
+        # The 5-ton truck on a level road: 4.4e-11 m/s² with modes up to 35 Hz, 13.5 m from the origin. A point that is
+        # held at the origin moves by 1e-16 m.
+        self.drive("quarter_car", "rest.h5", "--set", 'road={shape="flat"}', "--set", "duration=0.5")
+        for amplitude, is_motion in ((4.4e-11, False), (1e-7, True)):  # m/s²
+            with h5py.File(self.folder / "rest.h5", "a") as file:
+                wave = amplitude * np.sin(np.arange(file["time"].size))
+                file["points/sprung.origin/acceleration"][:, 1] = wave
+                file["points/sprung.origin/position"][:] = 1e-16 * np.sin(np.arange(wave.size))[:, None]
+                file["model/equilibrium/points/sprung.origin"][:] = 0.0
+                file["bodies/sprung/position"][:, 2] = 1e-15 * np.sin(np.arange(wave.size))
+                file["energy/dissipated"][:] = 1e-15 * np.arange(wave.size)
+                file["model/modes/undamped_frequency"][-1] = 35.0
+                for part, value in (("max", amplitude), ("min", -amplitude), ("rms", 1e-12)):
+                    file["summary/points/sprung.origin"].attrs[f"acceleration_{part}"] = value
+            _, data = self.report("rest.h5")
+            rows = self.read_rows(data, "sprung.origin")
+            found = {rows[f"acceleration, {part}"] for part in ("highest", "lowest", "r.m.s.")}
+            self.assertEqual(found, {amplitude, -amplitude, 1e-12} if is_motion else {0.0})
+            shown = {one["name"]: decode(one["v"]) for one in data["runs"][0]["channels"]}
+            self.assertEqual(np.any(shown["sprung.origin, acceleration"]), is_motion)
+            for name in ("sprung.origin, displacement", "sprung, angle", "dissipated energy"):
+                self.assertFalse(np.any(shown[name]), name)
+
     def test_a_spectrum_holds_the_mean_square_of_a_short_run_wherever_the_bump_lies(self):
         for duration in ("2", "6"):  # less and more than a segment
             self.drive("quarter_car", "bump.h5", "--set", f"duration={duration}")  # the bump begins after 0.4 s

@@ -23,6 +23,7 @@ from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode, find_kept
 from sprung_tools.report.shown_motion import ShownMotion, list_monitored, read_motion
 from sprung_tools.runs.labelled_runs import Shown
+from sprung_tools.runs.rounding import ROUNDING, clear_rounding
 from sprung_tools.runs.section_stress import ENDINGS, list_sources
 from sprung_tools.signals.spectra import calc_whole_spectrum
 
@@ -49,9 +50,11 @@ def list_channels(
     """All histories that the page shows. extra: the quantities asked for."""
     channels = []
 
-    def add(group: str, name: str, quantity: str, unless_zero: bool = False) -> None:
+    def add(group: str, name: str, quantity: str, unless_zero: bool = False, size: float = 0.0) -> None:
+        """size: of which the values may be nothing but rounding."""
         if results.has(quantity):
             values, unit = results.series(quantity)
+            values = clear_rounding(values, ROUNDING * size)
             if unless_zero and not np.any(values):
                 return
             channels.append(Channel(group, name, values, unit))
@@ -79,10 +82,12 @@ def list_channels(
             add("Joints", f"{name}, torque on {body}", f"joints/{name}/reaction.torque", unless_zero=True)
         add("Joints", f"{name}, drive", f"joints/{name}/drive")
     for body in find_heavy(results):
-        add("Whole vehicle", f"{body}, angle", f"bodies/{body}/position.angle")
+        add("Whole vehicle", f"{body}, angle", f"bodies/{body}/position.angle", size=1.0)  # rad
         add("Whole vehicle", f"{body}, horizontal velocity", f"bodies/{body}/velocity.x")
-    for name in results.names("energy"):
-        add("Energy", f"{name} energy", f"energy/{name}")
+    energies = [f"energy/{name}" for name in results.names("energy")]
+    largest = max((float(np.max(np.abs(results.series(one)[0]))) for one in energies), default=0.0)
+    for one in energies:
+        add("Energy", f"{one.partition('/')[2]} energy", one, size=largest)
     return channels
 
 

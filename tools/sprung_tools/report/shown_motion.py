@@ -10,7 +10,7 @@ from sprung_tools.files.array_types import Floats
 from sprung_tools.files.hdf5_file import read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import ROOT, read_elements
-from sprung_tools.runs.rounding import calc_size, clear_rounding
+from sprung_tools.runs.rounding import calc_rounding, clear_rounding
 
 VERTICAL = "y"
 
@@ -58,4 +58,4 @@ class ShownMotion:
 def read_motion(results: ResultsFile, point: str, what: str, axis: str) -> tuple[Floats, str]:
     """A point's displacement, position or acceleration [n] and its unit; 0 where it is nothing but rounding."""
     values, unit = results.series(f"points/{point}/{what}.{axis}")
-    return clear_rounding(values, calc_size(results, f"points/{point}", what)), unit
+    return clear_rounding(values, calc_rounding(results, f"points/{point}", what)), unit

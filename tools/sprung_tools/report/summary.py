@@ -29,7 +29,7 @@ from sprung_tools.report.shown_motion import VERTICAL, ShownMotion, list_monitor
 from sprung_tools.runs.labelled_runs import Run, samples_between
 from sprung_tools.runs.largest_loads import AXIAL, MOMENT, find_best_peak
 from sprung_tools.runs.ride_measures import read_window
-from sprung_tools.runs.rounding import calc_size, clear_each
+from sprung_tools.runs.rounding import calc_rounding, clear_each
 from sprung_tools.runs.run_caption import describe_integrator, describe_road
 from sprung_tools.runs.stored_histories import find_row_step, list_gaps
 from sprung_tools.signals.spectra import calc_rms
@@ -123,7 +123,10 @@ def read_extremes(results: ResultsFile, point: str, what: str) -> dict[str, floa
     if not keys:
         return {}
     values = np.array([read_real(results.file, group, key) for key in keys.values()])
-    return dict(zip(keys, clear_each(values, calc_size(results, f"points/{point}", what)).tolist()))
+    found = clear_each(values, calc_rounding(results, f"points/{point}", what))
+    # An r.m.s. value is smaller than the extremes: it is rounding where they are.
+    return {name: float(one if not np.any(found) or name != "r.m.s." else value)
+            for name, one, value in zip(keys, found, values)}  # fmt: skip
 
 
 def calc_extremes(results: ResultsFile, point: str, what: str, axis: str) -> dict[str, float]:

@@ -19,7 +19,7 @@ from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import read_point
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.ride_measures import list_row_remarks, list_static_remarks, sampling_step
-from sprung_tools.runs.rounding import calc_size, clear_rounding, read_acceleration
+from sprung_tools.runs.rounding import calc_rounding, clear_rounding, read_acceleration
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import (
     LEFT,
@@ -166,7 +166,7 @@ def read_pitch_acceleration(results: ResultsFile, point: str) -> Floats:
     if group == "points" and results.num_modes(body):
         modal, _ = read_numbers(results.file, f"bodies/{body}/modal/acceleration")
         angular = angular + modal @ read_point(results, name).shapes[2]
-    return clear_rounding(angular, calc_size(results, point, "acceleration"))
+    return clear_rounding(angular, calc_rounding(results, point, "acceleration"))
 
 
 def calc_vibration(results: ResultsFile, point: str) -> Vibration:

@@ -19,7 +19,7 @@ from sprung_tools.model.force_channels import (
 )
 from sprung_tools.model.resolved_model import read_element, read_elements, read_settings
 from sprung_tools.runs.labelled_runs import samples_between
-from sprung_tools.runs.rounding import clear_each, read_acceleration
+from sprung_tools.runs.rounding import ROUNDING, clear_each, read_acceleration
 from sprung_tools.signals.ride_weighting import HIGHEST, SAMPLES_PER_PERIOD, calc_dose, weight_acceleration
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
@@ -154,7 +154,7 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
     deflection = deflection[inside]
     row_step = every * sampling_step(results)
     # A deflection is a difference of lengths that are some times as large, and has their rounding.
-    travel = clear_each(deflection - (static or 0.0), 10.0 * float(np.max(np.abs(deflection))))
+    travel = clear_each(deflection - (static or 0.0), 10.0 * ROUNDING * float(np.max(np.abs(deflection))))
     return Travel(
         None if static is None else float(travel.max()),
         None if static is None else float(travel.min()),
