@@ -104,6 +104,8 @@ class OfThePortal(StarterCase):
         deck = (DATA / "portal.inp").read_text(encoding="utf-8")
         _, text = self.convert_text("turned.inp", deck)  # two of the posts' lines have an orientation node in the plane
         self.assertRegex(text, "# of section 'POST': its second moment, from .* as its lines are turned: divide it")
+        # The source does say its second moments.
+        self.assertIn("# second_moment =   # m⁴, for bending in the plane: why not, is said at the end", text)
         (self.folder / "frame.toml").unlink()
         self.convert_text("a.inp", deck.replace("11, 99", "11").replace("10, 99", "10"))
         hand = {  # the second number of BOX and RECT lies along the 2-direction, in the plane

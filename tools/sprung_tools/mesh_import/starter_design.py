@@ -92,10 +92,10 @@ def name_material(name: str) -> str:
     return f"material_{name}" if name.isdecimal() else name
 
 
-def format_number(key: str, value: float | None, unit: str) -> str:
-    """A key with its number; as a comment where it is not known."""
+def format_number(key: str, value: float | None, unit: str, unknown: str = "the source does not say") -> str:
+    """A key with its number; as a comment where it is not known. unknown: why it is not."""
     if value is None or not math.isfinite(value):
-        why = "the source does not say" if value is None else "the source's number is too large"
+        why = unknown if value is None else "the source's number is too large"
         return f"# {key} =   # {unit}: {why}"
     return f"{key} = {float(value)!r}"
 
@@ -119,7 +119,9 @@ def format_section(curve: str, section: PlaneSection, mesh: LineMesh, units: Uni
     lines.append(f"material = {quote(name_material(section.material) if known else UNKNOWN)}")
     area = None if section.area is None else units.length**2 * section.area
     moment = None if section.second_moment is None else units.length**4 * section.second_moment
-    lines += [format_number("area", area, "m²"), format_number("second_moment", moment, "m⁴, for bending in the plane")]
+    lines.append(format_number("area", area, "m²"))
+    left_open = "the source does not say" if area is None else "why not, is said at the end of this file"
+    lines.append(format_number("second_moment", moment, "m⁴, for bending in the plane", left_open))
     if section.section_modulus is not None:
         lines.append(format_number("section_modulus", units.length**3 * section.section_modulus, "m³"))
     density = mesh.materials[section.material].density if known else None
