@@ -28,6 +28,19 @@ class Redrawing(PageTestCase):
         self.assertEqual(page.evaluate(SPANS), [[0, 5]] * 5)
         self.check_alive(page)
 
+    def test_a_flexible_body_without_elements_is_drawn_by_its_nodes(self):
+        # As one from matrices: what it looks like between its nodes is not known.
+        page = self.open()
+        drawn = page.evaluate("""(() => {
+          const body = data.runs[1].vehicle.bodies.find((one) => one.elements), calls = [];
+          const context = new Proxy({}, {get: (_, name) => () => calls.push(name), set: () => true});
+          const view = {X: (x) => x, Y: (y) => y};
+          const bare = {...data.runs[1].vehicle, links: [], marks: [], bodies: [{...body, elements: 0, lines: []}]};
+          drawBodies(context, view, bare, {[body.name]: body.places}, "#000000");
+          return [calls, body.places.length];
+        })()""")
+        self.assertEqual(drawn[0], ["fillRect"] * drawn[1])
+
     def test_another_colour_scheme_while_open_keeps_time_zoom_and_choices(self):
         page = self.open()
         self.choose(page, "history-2", "Forces: front_tyre, force")

@@ -112,6 +112,16 @@ function drawRigid(context, view, body, nodes, colour) {
   return undefined;
 }
 
+/** A body with modes: its elements, and lines to points beside them. One from matrices has no elements: its nodes. */
+function drawFlexible(context, view, body, nodes, colour) {
+  body.lines.forEach(([a, b], number) => {
+    context.lineWidth = number >= body.elements ? 2 : 6;
+    drawLine(context, view, nodes[a], nodes[b]);
+  });
+  context.fillStyle = colour;
+  if (!body.elements) for (const [x, y] of nodes) context.fillRect(view.X(x) - 3, view.Y(y) - 3, 6, 6);
+}
+
 /** Bodies, springs, rods, joints and monitored points of a vehicle whose nodes {body: [[x, y] …]} are known. */
 function drawBodies(context, view, vehicle, nodes, colour) {
   const end = ([name, place]) => (name === null ? place : nodes[name][place]);
@@ -121,11 +131,8 @@ function drawBodies(context, view, vehicle, nodes, colour) {
   context.lineWidth = 1.5;
   for (const link of vehicle.links) if (link.kind === "spring") drawSpring(context, view, end(link.ends[0]), end(link.ends[1]), size);
   for (const body of vehicle.bodies) {
-    if (!body.elements) drawRigid(context, view, body, nodes[body.name], colour);
-    else body.lines.forEach(([a, b], number) => {
-      context.lineWidth = number >= body.elements ? 2 : 6;
-      drawLine(context, view, nodes[body.name][a], nodes[body.name][b]);
-    });
+    const hasModes = body.shapes[0][0].length > 0;
+    (body.elements || hasModes ? drawFlexible : drawRigid)(context, view, body, nodes[body.name], colour);
   }
   context.fillStyle = style("--card");
   context.lineWidth = 1.5;
