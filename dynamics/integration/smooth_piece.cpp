@@ -39,7 +39,7 @@ double SmoothPiece::calc_longest_step(const SystemTerms& terms, double time) con
   double longest = model_->time_details.calc_longest_step(time);
   for (std::size_t f = 0; f < model_->forces.size(); ++f)
     longest = std::min(longest, model_->forces[f]->calc_longest_step(terms.instant_of(f)));
-  if (model_->has_motions) {
+  if (model_->has_moving_joints) {
     for (const auto& joint : model_->joints) {
       longest = std::min(longest, joint->calc_longest_step(time, model_->length_scale));
     }

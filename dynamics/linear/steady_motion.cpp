@@ -83,7 +83,7 @@ Eigen::VectorXd SteadyMotion::rotate_back(const Model& model, Eigen::VectorXd ve
 }
 
 std::optional<SteadyMotion> find_steady_motion(const Model& model, const Eigen::VectorXd& q) {
-  if (!model.has_motions) return SteadyMotion{};
+  if (!model.has_moving_joints) return SteadyMotion{};
   SystemTerms terms(model);
   terms.update_positions(0.0, q);
   terms.update_jacobian();

@@ -66,12 +66,25 @@ void print_urgent_warnings(std::FILE* err, const std::vector<RunWarning>& warnin
   }
 }
 
+// Whether a function of time moves a body against the ground. One between two bodies does not drive the
+// vehicle.
+bool is_driven_from_ground(const Model& model) {
+  const auto is_on_ground = [&](int marker) {
+    return model.markers[static_cast<std::size_t>(marker)].body == kGround;
+  };
+  return std::any_of(model.joints.begin(), model.joints.end(), [&](const auto& joint) {
+    return !joint->time_functions().empty() &&
+           (is_on_ground(joint->marker_a) || is_on_ground(joint->marker_b));
+  });
+}
+
 // Where the statistics contain what was driven beside the road or behind its end.
 void warn_of_missed_road(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
   const Run& run = prepared.run;
   std::string text = describe_missed_road(run.road, *prepared.road, run.speed, run.statistics_to);
   // Elsewhere 'speed' does not say how far the vehicle comes.
-  if (run.continue_from.empty() && run.initial.empty() && !prepared.model.has_motions && text.empty())
+  if (run.continue_from.empty() && run.initial.empty() && !is_driven_from_ground(prepared.model) &&
+      text.empty())
     text = describe_unreached_road(*prepared.road, run.speed, run.duration);
   if (text.empty()) return;
   warnings.push_back({"summary", {std::string(kComputation)}, std::move(text)});

@@ -147,7 +147,7 @@ void ConstrainedEquations::set_motion(double time, const Eigen::VectorXd& q, con
 }
 
 double ConstrainedEquations::calc_motion_power() {
-  if (!model_->has_motions) return 0.0;
+  if (!model_->has_moving_joints) return 0.0;
   terms_.calc_time_rate(motion_rate_);
   return lambda_.dot(motion_rate_);
 }

@@ -37,7 +37,7 @@ void set_stand_ins(Model& model) {
 }
 
 void collect_time_functions(Model& model) {
-  model.has_motions = false;
+  model.has_moving_joints = false;
   model.time_breaks.clear();
   model.time_details = DetailLengths();
   const auto add = [&](const std::vector<const TimeFunction*>& functions) {
@@ -48,7 +48,7 @@ void collect_time_functions(Model& model) {
   };
   for (const auto& joint : model.joints) {
     add(joint->time_functions());
-    model.has_motions |= !joint->time_functions().empty();
+    model.has_moving_joints |= !joint->time_functions().empty();
   }
   for (const auto& force : model.forces) add(force->time_functions());
   std::sort(model.time_breaks.begin(), model.time_breaks.end());

@@ -43,7 +43,7 @@ struct Model {
   std::vector<int> force_states;      ///< first of `states` of each force element, and their number
   std::vector<int> acting_markers;    ///< those of joints and forces, ascending; the others are for results
   double length_scale = 1.0;          ///< the model's size, for tolerances [m]
-  bool has_motions = false;           ///< some joint prescribes a motion
+  bool has_moving_joints = false;     ///< some joint depends on time
   bool has_massless_bodies = false;   ///< some body has no mass or no inertia
   bool has_light_bodies = false;      ///< some mass or inertia is 0 or below the least metric
   std::vector<double> time_breaks;    ///< where functions of time have a kink or jump, ascending [s]

@@ -106,7 +106,7 @@ void SystemConstraints::update_jacobian(std::span<const MarkerState> markers) {
 
 void SystemConstraints::calc_time_rate(std::span<const MarkerState> markers, double time,
                                        Eigen::Ref<Eigen::VectorXd> phi_t) const {
-  if (!model_->has_motions) {
+  if (!model_->has_moving_joints) {
     phi_t.setZero();
     return;
   }

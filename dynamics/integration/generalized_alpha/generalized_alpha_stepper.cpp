@@ -85,7 +85,7 @@ GeneralizedAlphaStepper::Pair GeneralizedAlphaStepper::calc_power() {
 // The work of prescribed motion takes the multipliers that belong to the motion: those of the step jump where
 // the step's length does.
 bool GeneralizedAlphaStepper::update_end_power() {
-  if (model_->has_motions) {
+  if (model_->has_moving_joints) {
     ++num_evaluations_;
     if (!evaluate_equations(step_.end().motion)) return false;
     step_.end().power = calc_power();

@@ -149,6 +149,28 @@ class Warnings(DynamicsTestCase):
             self.assertIn("ahead of the leading axle, which does not reach it: " + reason, text)
             self.assertIn(text, said)
 
+    def test_a_motion_inside_the_vehicle_does_not_drive_it_to_the_road(self):
+        vehicle = self.folder / "vehicle.toml"
+        vehicle.write_text(vehicle.read_text(encoding="utf-8") + """
+[bodies.pump]
+mass = 1.0
+inertia = 0.1
+position = [0.0, 2.0]
+[[joints]]
+name = "pump"
+type = "revolute"
+a = "chassis.origin"
+b = "pump.origin"
+[[motions]]
+name = "turning"
+joint = "pump"
+function = { polynomial = [0.0, 0.5] }
+""", encoding="utf-8")  # fmt: skip
+        _, _, printed = self.run_to_json("duration=0.5", "road.start=9.0")
+        self.assertIn("which does not reach it", str(printed["warnings"]))
+        # The carriage of the quarter car is driven along the ground.
+        self.assertNotIn("does not reach it", str(self.run_quarter_car("road.start=99.0", "speed=1.0")))
+
     def run_quarter_car(self, *settings):
         """A quarter car over a bump. Returns the extremes of the body's acceleration, and the warnings."""
         words = [word for setting in settings for word in ("--set", setting)]
