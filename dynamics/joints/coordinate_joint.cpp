@@ -28,10 +28,11 @@ CoordinateJoint::CoordinateJoint(std::string joint_name, int marker_of_a, int ma
   }
 }
 
-// The force that holds a distance acts along the line through both points.
+// Of the forces on a, only that across an axis turns it: it acts at b.
 bool CoordinateJoint::carries_torque() const {
-  return std::any_of(parts_.held.begin(), parts_.held.end(),
-                     [](const Held& one) { return one.coordinate.kind() != Kind::kDistance; });
+  return std::any_of(parts_.held.begin(), parts_.held.end(), [](const Held& one) {
+    return one.coordinate.is_angle() || one.coordinate.kind() == Kind::kAlong;
+  });
 }
 
 bool CoordinateJoint::carries_torque_at_b() const {
