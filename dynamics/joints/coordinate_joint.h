@@ -43,9 +43,7 @@ class CoordinateJoint final : public Joint {
   bool carries_torque_at_b() const override;
   int num_constraints() const override { return static_cast<int>(parts_.held.size()); }
   std::string_view constraint_name(int k) const override { return held(k).name; }
-  std::string_view constraint_unit(int k) const override {
-    return held(k).coordinate.is_angle() ? "rad" : "m";
-  }
+  bool is_angle(int k) const override { return held(k).coordinate.is_angle(); }
 
   void calc_residual(const MarkerState& a, const MarkerState& b, double time,
                      JointVector& phi) const override;

@@ -51,7 +51,9 @@ class Joint {
   virtual int num_constraints() const = 0;
   /// The quantity that constraint k (0-based) holds, for messages: "x", "y".
   virtual std::string_view constraint_name(int k) const = 0;
-  virtual std::string_view constraint_unit(int /*k*/) const { return "m"; }
+  /// Whether constraint k is on an angle [rad], and not on a length [m].
+  virtual bool is_angle(int k) const = 0;
+  std::string_view constraint_unit(int k) const { return is_angle(k) ? "rad" : "m"; }
 
   /// @param[out] phi  k residuals [m, rad]
   virtual void calc_residual(const MarkerState& a, const MarkerState& b, double time,

@@ -20,6 +20,7 @@ class RevoluteJoint final : public Joint {
   bool carries_torque_at_b() const override { return false; }
   int num_constraints() const override { return 2; }
   std::string_view constraint_name(int k) const override { return k == 0 ? "x" : "y"; }
+  bool is_angle(int /*k*/) const override { return false; }
   void calc_residual(const MarkerState& a, const MarkerState& b, double time,
                      JointVector& phi) const override;
   void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga,

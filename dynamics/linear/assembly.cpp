@@ -134,8 +134,8 @@ std::vector<int> find_bodies_short_of_modes(const SystemTerms& terms, const std:
 void find_widest_gap(const Model& model, const Eigen::VectorXd& phi, AssemblyReport& report) {
   for (int i = 0; i < model.num_constraints; ++i) {
     const std::size_t joint = joint_of_constraint(model, i);
-    const bool is_distance = model.joints[joint]->constraint_unit(i - model.joint_rows[joint]) == "m";
-    if (!is_distance || std::abs(phi[i]) <= report.widest_gap) continue;
+    const bool is_angle = model.joints[joint]->is_angle(i - model.joint_rows[joint]);
+    if (is_angle || std::abs(phi[i]) <= report.widest_gap) continue;
     report.widest_gap = std::abs(phi[i]);
     report.open_joint = model.joints[joint]->name;
   }
@@ -147,9 +147,9 @@ void find_widest_motion_gap(const Model& model, const Eigen::VectorXd& phi, Asse
     const Joint& joint = *model.joints[j];
     if (!joint.is_motion()) continue;
     const double gap = phi[model.joint_rows[j]];
-    const std::string unit(joint.constraint_unit(0));
-    const double natural = std::abs(gap) / (unit == "m" ? model.length_scale : 1.0);
-    if (natural > report.motion_gap.natural_size) report.motion_gap = {joint.name, unit, gap, natural};
+    const double natural = std::abs(gap) / (joint.is_angle(0) ? 1.0 : model.length_scale);
+    if (natural > report.motion_gap.natural_size)
+      report.motion_gap = {joint.name, std::string(joint.constraint_unit(0)), gap, natural};
   }
 }
 
