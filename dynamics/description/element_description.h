@@ -24,7 +24,7 @@ struct Parameter {
 /// How a picture of the vehicle shows an element.
 enum class Drawing {
   kNone,
-  kWheel,   ///< a circle of its parameter `radius` about its first point
+  kWheel,   ///< of forces alone: a circle of its parameter `radius` about its point `wheel`
   kSpring,  ///< between its points a and b: a suspension, whose travel is its deflection
   kRod,     ///< a line between its points a and b
   kPin,     ///< a mark at its point a

@@ -29,14 +29,14 @@ std::optional<double> read_angle(const support::TomlTable& table) {
 
 void read_revolute(const support::TomlTable& /*table*/, JointDescription& joint,
                    HistoryFiles& /*histories*/) {
-  joint.coordinate = RelativeCoordinate(Kind::kAngle);
+  joint.drivable = RelativeCoordinate(Kind::kAngle);
   joint.parameters = RevoluteParameters{};
 }
 
 void read_translational(const support::TomlTable& table, JointDescription& joint,
                         HistoryFiles& /*histories*/) {
   const Eigen::Vector2d axis = read_direction(table.at("axis"));
-  joint.coordinate = RelativeCoordinate(Kind::kAlong, axis);
+  joint.drivable = RelativeCoordinate(Kind::kAlong, axis);
   joint.parameters = TranslationalParameters{.axis = axis, .angle = read_angle(table)};
 }
 
@@ -48,13 +48,13 @@ void read_distance(const support::TomlTable& table, JointDescription& joint, His
   const support::TomlValue value = table.at("length");
   const TimeFunction length = read_time_function(value, "m", TimeFunctionUse::kMotion, histories);
   if (!(length.value(0.0) > 0.0)) throw value.error(fmt::format("must be > 0 m, got {}", length.value(0.0)));
-  joint.needs_distance = true;
+  joint.along_line = true;
   joint.parameters = DistanceParameters{.length = length};
 }
 
 void read_pin_in_slot(const support::TomlTable& table, JointDescription& joint, HistoryFiles& /*histories*/) {
   const Eigen::Vector2d axis = read_direction(table.at("axis"));
-  joint.coordinate = RelativeCoordinate(Kind::kAlong, axis);
+  joint.drivable = RelativeCoordinate(Kind::kAlong, axis);
   joint.parameters = PinInSlotParameters{.axis = axis};
 }
 

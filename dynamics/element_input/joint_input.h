@@ -48,9 +48,9 @@ struct JointDescription {
   std::string kind;  ///< the file's `type`
   PointReference a, b;
   support::SourceLocation location;
-  /// The coordinate that prescribed motion may drive; none if nothing is free.
-  std::optional<RelativeCoordinate> coordinate;
-  bool needs_distance = false;  ///< its two points must not coincide
+  /// The joint's coordinate, where prescribed motion may drive it.
+  std::optional<RelativeCoordinate> drivable;
+  bool along_line = false;  ///< acts along the line between its two points, which must not coincide
   JointParameters parameters;
 };
 

@@ -27,7 +27,7 @@ void read_driven_joint(const support::TomlValue& value, std::span<const JointDes
     throw value.error(fmt::format("names no joint of the vehicle, '{}'{}", value.string(),
                                   support::nearest_name_hint(value.string(), names)));
   }
-  if (!found->coordinate) {
+  if (!found->drivable) {
     throw value.error(fmt::format("names a {} joint, which has no coordinate to be driven{}", found->kind,
                                   std::holds_alternative<DistanceParameters>(found->parameters)
                                       ? "; its 'length' may be a function of time"
@@ -35,7 +35,7 @@ void read_driven_joint(const support::TomlValue& value, std::span<const JointDes
   }
   motion.a = found->a;
   motion.b = found->b;
-  motion.coordinate = *found->coordinate;
+  motion.coordinate = *found->drivable;
 }
 
 void read_driven_point(const support::TomlTable& table, MotionDescription& motion) {

@@ -93,8 +93,8 @@ double start_angle(const Vehicle& vehicle, const Marker& marker) {
 
 using MarkerNumbers = std::unordered_map<std::string, int>;  // by name
 
-JointPlace place_joint(const Vehicle& vehicle, const Model& model, const MarkerNumbers& numbers,
-                       const PointReference& a, const PointReference& b, MotionUse motions) {
+JointPlace find_joint_place(const Vehicle& vehicle, const Model& model, const MarkerNumbers& numbers,
+                            const PointReference& a, const PointReference& b, MotionUse motions) {
   JointPlace place{.marker_a = numbers.at(a.name), .marker_b = numbers.at(b.name), .motions = motions};
   place.angle = start_angle(vehicle, model.markers[static_cast<std::size_t>(place.marker_b)]) -
                 start_angle(vehicle, model.markers[static_cast<std::size_t>(place.marker_a)]);
@@ -122,11 +122,11 @@ Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const P
   }
   for (const JointDescription& joint : vehicle.joints) {
     model.joints.push_back(
-        make_joint(joint, place_joint(vehicle, model, numbers, joint.a, joint.b, motions)));
+        make_joint(joint, find_joint_place(vehicle, model, numbers, joint.a, joint.b, motions)));
   }
   for (const MotionDescription& motion : vehicle.motions) {
     model.joints.push_back(
-        make_joint(motion, place_joint(vehicle, model, numbers, motion.a, motion.b, motions)));
+        make_joint(motion, find_joint_place(vehicle, model, numbers, motion.a, motion.b, motions)));
   }
   for (const ForceDescription& force : vehicle.forces) {
     if (force.on_road && road.road == nullptr) {

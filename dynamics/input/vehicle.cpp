@@ -201,7 +201,7 @@ void check_lines(const Vehicle& vehicle) {
       check(force, "force", force.points[i], force.points[i + 1]);
   }
   for (const JointDescription& joint : vehicle.joints) {
-    if (joint.needs_distance) check(joint, "joint", joint.a, joint.b);
+    if (joint.along_line) check(joint, "joint", joint.a, joint.b);
   }
 }
 

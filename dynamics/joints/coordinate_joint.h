@@ -9,8 +9,8 @@
 namespace sprung::dynamics {
 
 /// Keeps up to three relative coordinates of two markers at values that may be functions of time:
-/// φ_k = c_k(a, b) − f_k(t). All joints except the revolute one, and all prescribed motion, are of this class
-/// (joints, eqs. 3–6).
+/// φ_k = c_k(a, b) − f_k(t): joints that hold relative coordinates, and all prescribed motion (joints,
+/// eqs. 3–6).
 /// Checked by tests/dynamics/joints/coordinate_joint_test.cpp
 class CoordinateJoint final : public Joint {
  public:
@@ -22,7 +22,8 @@ class CoordinateJoint final : public Joint {
   struct Parts {
     std::string_view kind;
     std::vector<Held> held;  ///< 1 to 3
-    /// The free or driven coordinate; none if the joint leaves nothing free.
+    /// The coordinate that results show: free, driven, or the length of a distance joint; none if nothing is
+    /// free.
     std::optional<RelativeCoordinate> coordinate;
     std::vector<Parameter> parameters = {};  ///< for results files
     Drawing drawing = Drawing::kPin;

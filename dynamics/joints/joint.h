@@ -38,14 +38,16 @@ class Joint {
   virtual std::string_view kind() const = 0;
   /// Its points in the order a, b, and its parameters.
   virtual ElementDescription describe() const = 0;
-  /// Whether it is prescribed motion: it moves its markers by a function of time and does work.
+  /// Whether it is an entry of `[[motions]]`: its one constraint drives its coordinate, and results hold the
+  /// force or torque that this takes.
   virtual bool is_motion() const { return false; }
-  /// The coordinate that results show and that prescribed motion may drive; none for a joint without one.
+  /// The coordinate that results show and whose initial rate may be given; none for a joint without one.
   virtual std::optional<RelativeCoordinate> coordinate() const { return std::nullopt; }
 
   /// Whether its reaction at a can contain a torque.
   virtual bool carries_torque() const = 0;
-  /// Whether that at b can: forces along the axes of a act at b.
+  /// Whether its reaction at b can contain a torque. A force along an axis of a acts at b, so it turns a and
+  /// not b.
   virtual bool carries_torque_at_b() const = 0;
 
   virtual int num_constraints() const = 0;

@@ -29,9 +29,9 @@ struct BodyCoordinate {
 struct Model {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
+  // Shared with models that differ in their active modes.
   std::vector<std::shared_ptr<const Joint>> joints;
-  std::vector<std::shared_ptr<const ForceElement>>
-      forces;  ///< shared with models that differ in their active modes
+  std::vector<std::shared_ptr<const ForceElement>> forces;
   Eigen::Vector2d gravity = Eigen::Vector2d::Zero();  ///< [m/s²]
 
   int num_coordinates = 0;
@@ -40,7 +40,7 @@ struct Model {
   std::vector<int> force_branches;  ///< first branch of each force element
   int num_branches = 0;
   std::vector<InternalState> states;  ///< of all force elements: the last coordinates (system, eq. 14)
-  std::vector<int> force_states;      ///< first of `states` of each force element, and their number
+  std::vector<int> force_states;      ///< first of `states` of each force element; last, the number of all
   std::vector<int> acting_markers;    ///< those of joints and forces, ascending; the others are for results
   double length_scale = 1.0;          ///< the model's size, for tolerances [m]
   bool has_moving_joints = false;     ///< some joint depends on time

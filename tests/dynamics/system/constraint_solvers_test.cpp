@@ -1,4 +1,4 @@
-// Multipliers and dependents on mechanisms with all kinds of joints: against dense algebra on the same terms.
+// Multipliers and dependents on mechanisms with several kinds of joints, against dense algebra.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <memory>
@@ -51,7 +51,7 @@ struct Assembly {
 
 }  // namespace
 
-TEST_CASE("Multipliers are those of the dense matrix, for all kinds of joints", "[system]") {
+TEST_CASE("Multipliers are those of the dense matrix, for several kinds of joints", "[system]") {
   const Assembly assembly;
   const dynamics::Model& model = assembly.model;
   REQUIRE(model.num_constraints == 9);

@@ -87,7 +87,7 @@ class StoredFile:
             return shape
 
     def list_histories(self, group: str) -> list[str]:
-        """The datasets in a group and in the groups in it that have a row for each stored output."""
+        """The histories in a group, at any depth: the names of datasets with a row for every output, or for some."""
         found = []
         for name in (f"{group}/{one}" for one in self.names(group)):
             rule = self._layout.find(name)
