@@ -16,6 +16,7 @@ from unittest import mock
 
 import h5py
 import numpy as np
+from commands import list_readers
 from fatigue_test import write_loads
 from mode_runs import write_adaptive_run
 from plot_modes_test import write_choice
@@ -132,6 +133,13 @@ def change_bytes(content, rng):
         lines.insert(rng.randrange(len(lines)), rng.choice(lines))
         content = bytearray(b"\n".join(lines))
     return bytes(content)
+
+
+class Completeness(ToolTestCase):
+    def test_every_command_that_reads_such_files_is_here(self):
+        drawn = [command for _, commands in DRAWN for command in commands]
+        modules = {module for module, _ in (*RUN_COMMANDS, *SUPERELEMENT_COMMANDS, *drawn)} | {convert_mesh}
+        self.assertEqual({module.__name__.rpartition(".")[2] for module in modules}, list_readers())
 
 
 class Mutants(ToolTestCase):

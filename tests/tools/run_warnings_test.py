@@ -4,6 +4,8 @@ import unittest
 
 import h5py
 import numpy as np
+from commands import list_readers
+from fatigue_test import write_loads
 from mode_runs import write_adaptive_run
 from synthetic_results import write_results, write_series, write_texts
 from tool_test_case import ToolTestCase
@@ -76,22 +78,31 @@ class RunWarnings(ToolTestCase):
 
     def test_every_command_on_runs_repeats_them_and_says_what_is_thinned(self):
         write_adaptive_run(self.folder / "a.h5")
-        with h5py.File(self.folder / "a.h5", "a") as file:
-            file.require_group("summary").attrs["energy_closure"] = 1.2e-3
-            thin(file, "forces/front_tyre/force", 10)
+        write_loads(self.folder / "loads.h5")
+        for name, thinned in (("a.h5", "forces/front_tyre/force"), ("loads.h5", "points/body.seat/acceleration")):
+            with h5py.File(self.folder / name, "a") as file:
+                file.require_group("summary").attrs["energy_closure"] = 1.2e-3
+                thin(file, thinned, 10)
         show = ("--show", "bodies/chassis/position.y")
-        for tool, *arguments in (
-            ("report_peaks", "a.h5", *show),
-            ("plot_results", "a.h5", "-o", "a.svg", *show),
-            ("plot_modes", "a.h5", "-o", "a.svg", "--over-time"),
-            ("export_csv", "a.h5", "-o", "a.csv", *show),
-            ("export_paraview", "a.h5", "-o", "a.pvd", "--every", "0.5"),
-        ):
+        calls = {
+            "report_peaks": ("a.h5", *show),
+            "plot_results": ("a.h5", "-o", "a.svg", *show),
+            "plot_modes": ("a.h5", "-o", "a.svg", "--over-time"),
+            "ride": ("a.h5",),
+            "fatigue": ("loads.h5", "--category", "71"),
+            "report": ("a.h5", "-o", "a.html"),
+            "export_csv": ("a.h5", "-o", "a.csv", *show),
+            "export_paraview": ("a.h5", "-o", "a.pvd", "--every", "0.5"),
+        }
+        self.assertEqual(set(calls), list_readers("runs"))
+        for tool, arguments in calls.items():
             with self.subTest(tool):
                 process = self.run_tool(tool, *arguments)
                 self.assertEqual(process.returncode, 0, process.stderr)
-                self.assertIn("warning: chassis 3 vectors: the energy balance does not close", process.stdout)
-                self.assertIn("remark: chassis 3 vectors: forces stored every 50 ms", process.stdout)
+                page = self.folder / "a.html"
+                said = page.read_text(encoding="utf-8") if tool == "report" else process.stdout
+                self.assertIn("the energy balance does not close", said)
+                self.assertRegex(said, r"(forces|points) stored every \d+ ms")
 
     def test_histories_of_every_kind_that_are_not_stored_are_told(self):
         write_results(self.folder / "a.h5", num_modes=0)

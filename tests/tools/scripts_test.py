@@ -1,24 +1,26 @@
 """Every tool: bash can read it, --help explains it with an example, arguments it does not know are refused."""
 
 import os
+import re
 import sys
 import unittest
 
+from commands import BASH, COMMANDS, PYTHON, list_programs
 from synthetic_results import write_results, write_superelement
 from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 
-BASH = ("setup", "build", "test", "run-truck", "fuzz")
-PYTHON = (
-    "plot_results", "plot_response", "plot_modes", "plot_sensitivity", "report_peaks", "compare_frequencies",
-    "make_road.py", "ride", "paper_figures", "convert_mesh", "export_csv", "export_paraview", "report", "benchmark",
-    "study", "fatigue", "ride_limits",
-)  # fmt: skip
-
 
 class Scripts(ToolTestCase):
-    def test_the_lists_above_name_every_program_in_the_folder(self):
-        programs = {path.name for path in TOOLS.iterdir() if path.is_file() and os.access(path, os.X_OK)}
-        self.assertEqual(programs, {*BASH, *PYTHON})
+    def test_every_program_in_the_folder_is_in_the_list_of_commands(self):
+        self.assertEqual(list_programs(), set(COMMANDS))
+
+    def test_every_command_is_in_the_readme_and_installed_unless_it_serves_the_sources(self):
+        readme = (TOOLS / "README.md").read_text(encoding="utf-8")
+        cells = [line.split(" | ")[0] for line in readme.partition("| command |")[2].partition("\n\n")[0].splitlines()]
+        self.assertEqual({name for cell in cells for name in re.findall(r"`([\w.-]+)", cell)}, set(COMMANDS))
+        install = (TOOLS / "cmake/sprung_install.cmake").read_text(encoding="utf-8")
+        installed = re.search(r"foreach\(tool ([^)]*)\)", install)[1].split()
+        self.assertEqual(set(installed), {name for name, one in COMMANDS.items() if one.is_installed})
 
     def test_bash_can_read_the_scripts(self):
         for path in (*(TOOLS / name for name in BASH), ROOT / ".ci/run"):
