@@ -40,6 +40,23 @@ def read_reference():
     }
 
 
+def read_names(heading):
+    """The names in a table "| kind | HEADING |" of dynamics/output/results.md, by kind: NAME or PREFIX_…. What stands
+    in parentheses explains them."""
+    text = (ROOT / "dynamics/output/results.md").read_text(encoding="utf-8")
+    rows = text.partition(f"\n| kind | {heading} |\n")[2].partition("\n\n")[0].splitlines()[1:]
+    cells = [row.strip("| ").split(" | ") for row in rows]
+    return {kind.strip("`"): set(re.findall(r"`(\w+…?)`", re.sub(r"\([^()]*\)", "", named))) for kind, named in cells}
+
+
+def list_differences(found, named):
+    """The names that were found or that a table has, and not both."""
+    prefixes = tuple(name.removesuffix("…") for name in named if name.endswith("…"))
+    plain = {name for name in named if not name.endswith("…")}
+    missing = [prefix for prefix in prefixes if not any(name.startswith(prefix) for name in found)]
+    return sorted({name for name in found if not name.startswith(prefixes)} ^ plain) + missing
+
+
 def list_keys(value):
     """The keys of a document and of all tables in it."""
     if isinstance(value, dict):
@@ -86,6 +103,14 @@ class EveryElement(ToolTestCase):
         for group, wanted in types.items():
             self.assertEqual(wanted - {one["type"] for one in vehicle[group]}, set())
 
+    def test_the_contents_of_the_reference_and_its_table_of_joints_are_complete(self):
+        text = (ROOT / "dynamics/models/README.md").read_text(encoding="utf-8")
+        contents = text.partition("\n## Contents\n")[2].partition("\n## ")[0]
+        for heading in re.findall(r"^### (.+)$", text, re.MULTILINE):
+            self.assertIn(f"](#{heading.lower().replace(':', '').replace(' ', '-')})", contents)
+        joints = text.partition("\n### Joints\n")[2].partition("\n### ")[0]
+        self.assertEqual(set(re.findall(r'^\| `"([a-z-]+)"`', joints, re.MULTILINE)), read_reference()[1]["joints"])
+
     def test_it_has_an_equilibrium_and_modes(self):
         for command, expected in (("equilibrium", "cab_air: gauge pressure"), ("modes", "46 freedoms")):
             process = run_program([PROGRAM, command, "run.toml", "--superelements", SUPERELEMENTS,
@@ -117,6 +142,36 @@ class EveryElement(ToolTestCase):
             for channel in results.file.names(f"forces/{name}"):
                 if not channel.startswith("on_") and channel != "state":
                     self.assertIn(read_text(results.file, f"forces/{name}/{channel}", "role", ""), ROLES, channel)
+
+    def test_the_parameters_of_every_kind_are_those_of_the_reference(self):
+        results, named = self.open("rigid.h5"), read_names("parameters")
+        found: dict = {}
+        for group in ("joints", "forces"):
+            for name, element in read_elements(results, group).items():
+                where = f"model/resolved/{group}/{name}/parameters"
+                attributes = {one for one in results.file.attributes(where) if not one.endswith("_unit")}
+                found.setdefault(element.kind, set()).update(attributes, results.file.names(where))
+        self.assertEqual(set(found), set(named))
+        for kind, names in found.items():
+            self.assertEqual(list_differences(names, named[kind]), [], kind)
+
+    def test_the_channels_of_every_kind_are_those_of_the_reference(self):
+        results, named = self.open("rigid.h5"), read_names("channels in `/forces/NAME`")
+        found: dict = {}
+        for name, element in read_elements(results, "forces").items():
+            channels = {one for one in results.file.names(f"forces/{name}") if not one.startswith("on_")} - {"state"}
+            found.setdefault(element.kind, set()).update(channels)
+        self.assertEqual(set(found), set(named))
+        for kind, names in found.items():
+            self.assertEqual(list_differences(names, named[kind]), [], kind)
+
+    def test_the_reference_says_what_the_coordinate_of_every_joint_is(self):
+        text = (ROOT / "dynamics/output/results.md").read_text(encoding="utf-8")
+        (row,) = re.findall(r"^\| `/joints/NAME/coordinate`.*", text, re.MULTILINE)
+        results = self.open("rigid.h5")
+        for name, element in read_elements(results, "joints").items():
+            has_none = not results.file.has_dataset(f"joints/{name}/coordinate")
+            self.assertIn(f"`{element.kind}`{' has none' if has_none else ''}", row)
 
     def test_ride_and_report_accept_all_of_them(self):
         results = self.open("rigid.h5")
