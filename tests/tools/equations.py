@@ -4,7 +4,10 @@ A README numbers its equations 1, 2, 3 … in reading order: a line of an indent
 docstrings and other READMEs cite an equation as `(ROOM, eq. 3)` or `(ROOM, eqs. 3–5, 7; OTHER, eq. 1)` and a section as
 `(ROOM, "Section")`, ROOM being the README's folder, counted from dynamics/ if it lies there: `system`, `fem`. A key
 such as [Shabana 2013] stands in the list of references of the README itself or, for a source file, of the nearest
-folder above that has a README; for a test, of any README."""
+folder above that has a README; for a test, of any README.
+
+A test that a comment or a README names, `tests/fem/beam_test.cpp`, is a file. In tests/README.md "a name" or `Name`
+that stands before `in [a_test.py](…)` is in that file."""
 
 import re
 from pathlib import Path
@@ -27,6 +30,11 @@ OWN_NUMBERS = re.compile(r"(?<![\w)])\((\d{1,3}(?:(?:–|, )\d{1,3})*)\)")
 KEY = r"[^\W\d_]{2}[^\[\];<>−]*? (?:\d{4}|\d+(?:\.\d+)?)"
 KEYS = re.compile(rf"\[({KEY}(?:, [^\[\];]*)?(?:; {KEY}(?:, [^\[\];]*)?)*)\](?!\()")
 REFERENCE = re.compile(rf"^- \[({KEY})\]", re.MULTILINE)
+
+TEST = re.compile(r"(?<=hecked by )tests/[\w/.]*\w|\btests/[a-z\d_/]+_test\.(?:cpp|py)\b")
+TESTS = "tests/README.md"
+NAME, LINK = r'"[^"]+"|`[^`]+`', r"\[[^\]]+\]\([^)]+\)"
+QUOTED = re.compile(rf"((?:(?:{NAME})(?:, | and )?)+) in ((?:{LINK}(?:, | and )?)+)")
 
 
 class Readme(NamedTuple):
@@ -105,6 +113,7 @@ def find_mistakes(root):
         home = _find_home(file, readmes)
         if home is not None and home.file == file:
             mistakes += _find_wrong_own_numbers(file, prose, home)
+        mistakes += _find_missing_tests(root, file, prose)
         lists = list(readmes.values()) if file.startswith("tests/") else [home] if home else []
         mistakes += _find_unknown_keys(file, prose, lists, cited)
     for readme in readmes.values():
@@ -155,6 +164,18 @@ def _find_wrong_citations(file, prose, readmes):
         room, section = match.groups()
         if room not in readmes or section not in readmes[room].headings:
             yield f"{file}:{prose.line(match.start())}: error: room '{room}' has no section '{section}'"
+
+
+def _find_missing_tests(root, file, prose):
+    for match in TEST.finditer(prose.text):
+        if not (Path(root) / match[0]).is_file():
+            yield f"{file}:{prose.line(match.start())}: error: there is no {match[0]}"
+    for match in QUOTED.finditer(prose.text) if file == TESTS else ():
+        tests = [Path(root) / "tests" / name for name in re.findall(r"\]\(([^)]+)\)", match[2])]
+        text = "".join(test.read_text(encoding="utf-8") for test in tests if test.is_file())
+        for name in re.findall(r'["`]([^"`]+)["`]', match[1]):
+            if name not in text:
+                yield f"{file}:{prose.line(match.start())}: error: '{name}' is not in {match[2]}"
 
 
 def _find_wrong_own_numbers(file, prose, readme):

@@ -1,4 +1,4 @@
-"""Every equation, section and reference that is cited exists, and every README numbers its equations 1, 2, 3 …"""
+"""Every equation, section, reference and test that is cited exists, and every README numbers its equations 1, 2, 3 …"""
 
 import unittest
 
@@ -41,6 +41,7 @@ class TheCheck(ToolTestCase):
         super().setUp()
         self.write("dynamics/bodies/README.md", README)
         self.write("fem/README.md", "    K = …  (1)\n")
+        self.write("tests/fem/a_test.py", "class Good:\n    def test_good_b_d(self):\n        pass\n")
         self.write(
             "dynamics/bodies/body.h", "/// Position (bodies, eq. 1), velocity (bodies,\n/// eqs. 1, 2).\nint a[2];\n"
         )
@@ -86,6 +87,11 @@ class TheCheck(ToolTestCase):
                 "// [Miller & Smith 1999; Jones 2001, §2]\n",
                 "[Jones 2001] is not among the references of dynamics/bodies/README.md",
             ),
+            ("fem/a.h", "// Checked by tests/fem/a_test.cpp\n", "fem/a.h:1: error: there is no tests/fem/a_test.cpp"),
+            ("fem/a.h", "// see above — checked by\n// tests/fem/a_tset.cpp\n", "there is no tests/fem/a_tset.cpp"),
+            ("tools/README.md", "tests/tools/plot_test.py draws\n", "there is no tests/tools/plot_test.py"),
+            ("tests/README.md", '| "good", "b d" in [a_test.py](fem/a_test.py) |\n', "'b d' is not in [a_test.py]"),
+            ("tests/README.md", "| `Bad` in [a_test.py](fem/a_test.py) |\n", "'Bad' is not in [a_test.py]"),
         ):
             with self.subTest(text):
                 self.write(name, text)
