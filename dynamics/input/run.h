@@ -66,7 +66,7 @@ struct Run {
   std::string text;                    ///< the file as read
   std::filesystem::path vehicle_path;  ///< made relative to the working folder
   support::SourceLocation vehicle_location;
-  double speed = 0.0;  ///< of all bodies along the vehicle's heading at the start [m/s]
+  double speed = 0.0;      ///< of all bodies along the vehicle's heading at the start [m/s]
   bool has_speed = false;  ///< it is given
   support::SourceLocation speed_location;
   double duration = 0.0;  ///< time at the end, > 0 [s]

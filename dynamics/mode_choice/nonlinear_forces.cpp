@@ -146,7 +146,7 @@ NonlinearForces calc_nonlinear_forces(const LinearVehicle& vehicle, const Eigen:
 std::vector<std::string> list_unpredictable(const LinearVehicle& vehicle) {
   std::vector<std::string> elements;
   for (std::size_t f = 0; f < vehicle.model().forces.size(); ++f) {
-    if (needs_random_linearisation(vehicle, f)) elements.push_back(vehicle.model().forces[f]->name);
+    if (find_random_laws(vehicle, f).states) elements.push_back(vehicle.model().forces[f]->name);
   }
   return elements;
 }
