@@ -51,7 +51,8 @@ class RunStatistics {
                 const VehicleSections& sections);
 
   /// Adds an output, at which the sections are up to date.
-  /// @throws support::NumericalError where a body deflects without bounds (section_loads, "Where linear bending ends")
+  /// @throws support::NumericalError where a body deflects without bounds (section_loads, "Where linear
+  /// bending ends")
   void add(const Snapshot& snapshot);
   /// Takes an instant between outputs, at which all markers and the sections are up to date, into account for
   /// the density of the outputs and for the size of the energies.
