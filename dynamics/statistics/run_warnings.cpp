@@ -69,7 +69,7 @@ void warn_of_unconverged_accelerations(const Model& model, const RunStatistics& 
            "the accelerations are not converged: the estimated error of that of {} is {:.2g} m/s² "
            "r.m.s., where it has {:.3g} m/s² r.m.s.: vibration of stiff modes, which steps excite; take "
            "a smaller integrator.relative_tolerance, or fewer modes, or compare with "
-           "integrator.method = \"generalized-alpha\"",
+           "another integrator.method",
            worst->point, worst->acceleration_error_rms, worst->acceleration_rms),
        .fails = true});
 }

@@ -191,10 +191,11 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
       }
       if (fixed_step_ > 0.0) {  // it may end too near to a change point
         if (passage_.pivot() < 1.0 && pass_change_point(longest_step)) return end_passage();
-        throw_stopped(time_,
-                      std::string("the iteration of a step does not converge; shorten fixed_step, or leave "
-                                  "it out: a step of chosen length passes the change points of a mechanism") +
-                          remark_on_radius(spectral_radius_));
+        throw_stopped(
+            time_, std::string("the iteration of a step does not converge; shorten fixed_step, or leave it "
+                               "out: a step of chosen length passes switches, and change points of a "
+                               "mechanism") +
+                       remark_on_radius(spectral_radius_));
       }
       next_length_ = 0.25 * length;
       continue;
