@@ -176,9 +176,8 @@ std::string format_comparison(const Comparison& comparison) {
         "order.\n";
   } else if (!comparison.comparable) {
     text += fmt::format(
-        "The two bodies have too few places in common for a MAC: {:.0f} % of the old body's nodes and {:.0f} "
-        "% of "
-        "the new one's lie on the other, and {:.0f} % must; modes are paired by their order.\n",
+        "The two bodies have too few places in common for a MAC: {:.0f} % of the old body's nodes and "
+        "{:.0f} % of the new one's lie on the other, and {:.0f} % must; modes are paired by their order.\n",
         std::floor(100.0 * comparison.share_of_old), std::floor(100.0 * comparison.share_of_new),
         100.0 * kLeastShare);
   }

@@ -123,10 +123,11 @@ def read_extremes(results: ResultsFile, point: str, what: str) -> dict[str, floa
     if not keys:
         return {}
     values = np.array([read_real(results.file, group, key) for key in keys.values()])
-    found = clear_each(values, calc_rounding(results, f"points/{point}", what))
-    # An r.m.s. value is smaller than the extremes: it is rounding where they are.
-    return {name: float(one if not np.any(found) or name != "r.m.s." else value)
-            for name, one, value in zip(keys, found, values)}  # fmt: skip
+    cleared = clear_each(values, calc_rounding(results, f"points/{point}", what))
+    if np.any(cleared):  # an r.m.s. value is smaller than the extremes: it is rounding where they all are
+        is_rms = np.array([name == "r.m.s." for name in keys])
+        cleared[is_rms] = values[is_rms]
+    return dict(zip(keys, cleared.tolist()))
 
 
 def calc_extremes(results: ResultsFile, point: str, what: str, axis: str) -> dict[str, float]:

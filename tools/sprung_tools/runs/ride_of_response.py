@@ -91,12 +91,12 @@ def calc_cut_share(frequency: Floats, density: Floats, weighting: Weighting) -> 
 def list_range_remarks(response: Response, points: Sequence[str]) -> list[str]:
     """That the range of the frequencies cuts off what the weightings let through, if that may be much."""
     frequency = response.frequency
-    worst, where = 0.0, ""
+    shares = []
     for point in points:
         for axis, weighting in (("x", WD), ("y", WK), ("angle", WE)):
             density = response.values(f"points/{point}/acceleration.{axis}", is_spectrum=True)[0]
-            share = calc_cut_share(frequency, density, weighting)
-            worst, where = (share, point) if share > worst else (worst, where)
+            shares.append((calc_cut_share(frequency, density, weighting), point))
+    worst, where = max(shares, default=(0.0, ""))
     if worst <= MOST_CHANGE:
         return []
     return [
@@ -111,12 +111,12 @@ def list_density_remarks(response: Response, points: Sequence[str]) -> list[str]
     if response.frequency.size < 3:
         return []
     halves = response._replace(frequency=response.frequency[::2], every=2 * response.every)
-    worst, where = 0.0, ""
+    changes = []
     for point in points:
         fine, coarse = calc_linear_assessment(response, point), calc_linear_assessment(halves, point)
         for one, other in ((fine.vertical, coarse.vertical), (fine.rms, coarse.rms), (fine.fore_aft, coarse.fore_aft)):
-            change = abs(other - one) / one if one > 0.0 else 0.0
-            worst, where = (change, point) if change > worst else (worst, where)
+            changes.append((abs(other - one) / one if one > 0.0 else 0.0, point))
+    worst, where = max(changes, default=(0.0, ""))
     if worst <= MOST_CHANGE:
         return []
     return [
