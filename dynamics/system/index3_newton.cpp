@@ -185,6 +185,7 @@ void Index3Newton::collect_entries(const SystemTerms& terms, const Weights& weig
 }
 
 bool Index3Newton::factorise(const SystemTerms& terms, const Weights& weights) {
+  weights_ = weights;
   collect_entries(terms, weights);
   if (!is_dense_) {
     std::vector<Eigen::Triplet<double>> triplets;
@@ -214,6 +215,17 @@ void Index3Newton::solve(const Eigen::VectorXd& r, const Eigen::VectorXd& phi, E
     solution_ = sparse_factor_.solve(unknowns_);
   delta = solution_.head(num_coordinates_).cwiseProduct(coordinate_scale_);
   delta_lambda = solution_.tail(num_constraints_).cwiseProduct(constraint_scale_);
+}
+
+void Index3Newton::calc_force_change(const Eigen::VectorXd& y, Eigen::VectorXd& force) const {
+  force.setZero();
+  for (const Coupling& coupling : couplings_) {
+    const Group& row = groups_[static_cast<std::size_t>(coupling.row_group)];
+    const Group& column = groups_[static_cast<std::size_t>(coupling.column_group)];
+    auto on_row = force.segment(row.first, row.size);
+    on_row.noalias() += weights_.velocity * (coupling.C * y.segment(column.first, column.size));
+    on_row.noalias() += weights_.position * (coupling.K * y.segment(column.first, column.size));
+  }
 }
 
 Eigen::MatrixXd Index3Newton::dense() const {

@@ -41,6 +41,10 @@ class Index3Newton {
   void solve(const Eigen::VectorXd& r, const Eigen::VectorXd& phi, Eigen::VectorXd& delta,
              Eigen::VectorXd& delta_lambda);
 
+  /// (b₁C + b₂K) y, with the C, K and weights of the matrix that was factorised: by how much the forces
+  /// differ where velocities differ by b₁y and positions by b₂y. @param y  nq   @param[out] force  nq
+  void calc_force_change(const Eigen::VectorXd& y, Eigen::VectorXd& force) const;
+
   /// The scaled matrix that was factorised: for tests.
   Eigen::MatrixXd dense() const;
 
@@ -74,6 +78,7 @@ class Index3Newton {
   Eigen::VectorXd base_force_;
   ConstrainedMotion moved_;
 
+  Weights weights_;
   std::vector<Entry> entries_;  // of the scaled matrix
   Eigen::VectorXd coordinate_scale_, constraint_scale_, unknowns_, solution_;
   bool is_dense_;

@@ -120,6 +120,45 @@ class Semitrailer(VerificationCase):
         self.assertGreater(np.sum((found[1] - found[0]) ** 2), np.sum(found[0] ** 2))
 
 
+class ShorterSteps(VerificationCase):
+    """Generalized-α on two vehicles of the templates, which roll on an even road before and behind a bump. Where steps
+    became shorter, they made vibration of velocities that longer ones had left in stiff modes. It switched dampers, and
+    that made the steps shorter still."""
+
+    ALPHA = ("--set", 'integrator.method="generalized-alpha"')
+
+    def setUp(self):
+        super().setUp()
+        designs = [ROOT / "meshes/templates" / f"{name}_frame.toml" for name in ("tractor", "trailer")]
+        run_program([os.environ["SPRUNG_REDUCE"], "build", *designs, "--output-dir", "."], cwd=self.folder, check=True)
+
+    def run_template(self, name, duration, *arguments):
+        return self.run_to_results(
+            ROOT / f"dynamics/models/templates/{name}_run.toml", "--set", f"duration={duration}", "--set",
+            "output_step=2e-3", "--set", "output.precision=double", *arguments, violation=1e-5,
+            superelements=self.folder,
+        )  # fmt: skip
+
+    def test_errors_fall_and_steps_rise_with_a_smaller_tolerance(self):
+        """The accelerations of the fifth wheel were 12 times as large as is right at 1e-3, with exit code 0, and took
+        more steps than at 1e-4. The expected ones are those of the exponential method."""
+        name = "points/tractor_frame.fifth_wheel/acceleration"
+        expected = self.run_template("semitrailer", 1.5, "--set", "integrator.relative_tolerance=1e-6")[name]
+        steps = []
+        for tolerance, bound in (("1e-3", 0.15), ("1e-4", 0.05), ("1e-5", 0.02)):
+            with self.subTest(tolerance=tolerance):
+                results = self.run_template("semitrailer", 1.5, *self.ALPHA, "--set",
+                                            f"integrator.relative_tolerance={tolerance}")  # fmt: skip
+                error = np.sum((results[name] - expected) ** 2) / np.sum(expected**2)
+                self.assertLess(np.sqrt(error), bound)
+                steps.append(results.summary["steps"])
+        self.assertEqual(steps, sorted(steps))
+
+    def test_a_vehicle_runs_on_after_its_motion_has_calmed(self):
+        """It stopped at 7.49 s: tyres and dampers switched back and forth without end."""
+        self.assertLess(self.run_template("truck", 8.0, *self.ALPHA).summary["energy_closure"], 1e-5)
+
+
 class StiffModes(VerificationCase):
     """Generalized-α on the truck over its bump with all 36 modes, whose highest frequency no step resolves. Its
     errors are those against the default method, which is good to 0.1 m/s² at 1e-5. Bounds: steps between switches

@@ -17,6 +17,7 @@ constexpr double kUselessContraction = 0.7;
 // An iteration with the matrix of another length leaves this share of an error in a stiff mode, or makes it
 // larger, and the norm of positions does not see it.
 constexpr double kOutdated = 0.1;
+constexpr int kNumFilters = 4;  // the U of (integration/generalized_alpha, eq. 8)
 constexpr double kRounding =
     64.0 * std::numeric_limits<double>::epsilon();  // of a coordinate and its natural size
 
@@ -38,6 +39,7 @@ GeneralizedAlphaStep::End::End(const Model& model, int num_switches)
     : motion(model),
       lead(motion.q),
       jerk(motion.q),
+      mean_velocity(motion.q),
       lambda_rate(motion.lambda),
       energy(Pair::Zero()),
       power(Pair::Zero()),
@@ -56,7 +58,7 @@ GeneralizedAlphaStep::GeneralizedAlphaStep(const Model& model, const SmoothPiece
       begin_(model, piece.num_switches()),
       end_(begin_) {
   auxiliary_begin_ = auxiliary_end_ = delta_ = begin_.motion.q;
-  error_ = error_q_ = error_v_ = error_force_ = begin_.motion.q;
+  vibration_ = error_ = error_q_ = error_v_ = error_force_ = begin_.motion.q;
   delta_lambda_ = scaled_phi_ = error_lambda_ = no_violation_ = begin_.motion.lambda;
 }
 
@@ -172,9 +174,32 @@ bool GeneralizedAlphaStep::solve(double length) {
       return false;
     }
   }
+  end_.step_before = length;
+  if (model_->has_modes()) {
+    end_.mean_velocity = (end_.motion.q - begin_.motion.q) / length;
+    settle_velocities(1.0, end_.motion.v);
+    residual_.terms().update_velocities(end_.motion.v);  // for power and switches
+  }
   // Positions and masses make the matrix out of date first; if it is slow with new ones, the forces do.
   if (contraction_ > kSlowContraction) renewal_ = is_fresh_ ? Renewal::kAll : Renewal::kFactors;
   return true;
+}
+
+// Velocities of modes that the step does not resolve become the slope of their positions
+// (integration/generalized_alpha, eqs. 7, 8). @param place  in the step, 0 … 1
+void GeneralizedAlphaStep::settle_velocities(double place, Vector& v) {
+  const double length = end_.step_before, before = begin_.step_before;
+  vibration_ = v - end_.mean_velocity;
+  if (before > 0.0) {
+    const double share = (2.0 * place - 1.0) * length / (length + before);
+    vibration_ -= share * (end_.mean_velocity - begin_.mean_velocity);
+  }
+  for (int pass = 0; pass < kNumFilters; ++pass) {
+    newton_.calc_force_change(vibration_, error_force_);
+    error_force_ = -error_force_;
+    newton_.solve(error_force_, no_violation_, vibration_, error_lambda_);
+  }
+  v -= vibration_;
 }
 
 // The part of an error in the coordinates that counts, by Newton's matrix: without what the constraints take
@@ -211,7 +236,6 @@ double GeneralizedAlphaStep::calc_error(double length) {
 
 void GeneralizedAlphaStep::finish(double length, double end_time) {
   end_.motion.time = end_time;
-  end_.step_before = length;
   end_.lead = (auxiliary_end_ - end_.motion.v_dot) / length;
   end_.jerk = (auxiliary_end_ - auxiliary_begin_) / length;
   end_.lambda_rate = (end_.motion.lambda - begin_.motion.lambda) / length;
@@ -221,11 +245,12 @@ void GeneralizedAlphaStep::finish(double length, double end_time) {
 
 // Positions by the cubic through positions and velocities of both ends, velocities by that through velocities
 // and accelerations.
-void GeneralizedAlphaStep::interpolate_motion(double time, Vector& q, Vector& v) const {
+void GeneralizedAlphaStep::interpolate_motion(double time, Vector& q, Vector& v) {
   const ConstrainedMotion &a = begin_.motion, &b = end_.motion;
   const HermiteWeights w(a.time, b.time, time);
   q = w.begin * a.q + w.end * b.q + w.begin_rate * a.v + w.end_rate * b.v;
   v = w.begin * a.v + w.end * b.v + w.begin_rate * a.v_dot + w.end_rate * b.v_dot;
+  if (model_->has_modes()) settle_velocities((time - a.time) / (b.time - a.time), v);
 }
 
 void GeneralizedAlphaStep::remove_vibration(double time, const Vector& v_dot, const Vector& phi, Vector& q) {

@@ -11,7 +11,7 @@
 namespace sprung::dynamics {
 
 /// One step of generalized-α on the index-3 system: what holds at its two ends, Newton's iteration between
-/// them and the error that it makes (system, eqs. 9, 10; integration/generalized_alpha, eqs. 1, 2, 5).
+/// them and the error that it makes (system, eqs. 9, 10; integration/generalized_alpha, eqs. 1, 2, 5, 7, 8).
 /// Allocates nothing where Index3Newton does not.
 class GeneralizedAlphaStep {
  public:
@@ -24,6 +24,7 @@ class GeneralizedAlphaStep {
     ConstrainedMotion motion;
     Vector lead;  ///< (a − v̇) over the step's length: the same for the next step, whatever its length
     Vector jerk;  ///< of a, over the step that ended here; at a start that of the motion
+    Vector mean_velocity;            ///< of positions, over the step that ended here
     Vector lambda_rate;              ///< likewise
     Pair energy, power, power_rate;  ///< [J, W, W/s]
     double step_before = 0.0;        ///< length of the step that ended here, 0 at a start [s]
@@ -56,8 +57,8 @@ class GeneralizedAlphaStep {
   }
   /// Completes the end for the step after it.
   void finish(double length, double end_time);
-  /// Positions and velocities within the step.
-  void interpolate_motion(double time, Vector& q, Vector& v) const;
+  /// Positions and velocities within the step, these without vibration that the step does not resolve.
+  void interpolate_motion(double time, Vector& q, Vector& v);
   Pair interpolate_energy(double time) const;  ///< likewise [J]
   /// Moves positions within the step to where the joints close and the accelerations of the equations lack
   /// the vibration that the step does not resolve (integration/generalized_alpha, eq. 6).
@@ -82,6 +83,7 @@ class GeneralizedAlphaStep {
   double allowed_position(int i) const;
   double allowed_velocity(int i, double length) const;
   double calc_iteration_norm(double length) const;
+  void settle_velocities(double place, Vector& v);
   void filter_error(const Vector& error, const Vector& scaled_phi, Vector& filtered);
 
   const Model* model_;
@@ -104,6 +106,7 @@ class GeneralizedAlphaStep {
   Vector auxiliary_begin_, auxiliary_end_;  // a, nq
   Vector delta_;                            // of the accelerations, by the last iteration, nq
   Vector delta_lambda_, scaled_phi_;        // m
+  Vector vibration_;                        // of velocities, nq
   // Of filter_error: errors as they are and without the parts that do not count, and Newton's right-hand side
   // and multipliers for these.
   Vector error_, error_q_, error_v_, error_force_;  // nq

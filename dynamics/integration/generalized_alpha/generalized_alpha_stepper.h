@@ -13,7 +13,7 @@ namespace sprung::dynamics {
 
 /// Generalized-α on the constrained system itself: positions, velocities, accelerations and multipliers
 /// of all coordinates, the constraints on the level of positions, no partition (system, eqs. 9, 10;
-/// integration/generalized_alpha, eqs. 1, 2, 4–6). Second order. Velocities and accelerations satisfy their
+/// integration/generalized_alpha, eqs. 1, 2, 4–8). Second order. Velocities and accelerations satisfy their
 /// constraints to the order of the method only: `evaluate` closes positions and velocities, takes out
 /// vibration that the steps do not resolve, and finds accelerations and multipliers, without touching what is
 /// integrated. Source: [Arnold & Brüls 2007]; variable step as in [Jay & Negrut 2009]

@@ -95,6 +95,15 @@ TEST_CASE("Newton's equations return the change from which the residual was made
     INFO(num_links << " links");
     CHECK((found + delta).cwiseAbs().maxCoeff() < 1e-4 * size);
     CHECK((found_lambda + delta_lambda).cwiseAbs().maxCoeff() < 1e-3 * size);
+
+    moved = motion;
+    moved.q += weights.position * delta;
+    moved.v += weights.velocity * delta;
+    residual.update(moved, chain.branches);
+    const VectorXd expected = residual.force() - force;
+    VectorXd change = expected;
+    newton.calc_force_change(delta, change);
+    CHECK((change - expected).norm() < 1e-4 * expected.norm());
   }
 }
 
