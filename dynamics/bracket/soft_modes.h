@@ -23,7 +23,7 @@ SoftStiffness calc_soft_stiffness(const reduce::Certificate& certificate);
 void add_soft_modes(Body& body, const reduce::Superelement& superelement);
 
 /// What is not known of the inertia of the true body when it is deflected, since of what the basis misses
-/// only the motion at the interface is known and not that all over the body (linear, eqs. 19, 20).
+/// only the motion at the interface is known and not that all over the body (bracket, eqs. 1, 2).
 struct UnknownInertia {
   double known = 0.0, missed = 0.0;  ///< ‖u‖, ‖u_m‖ of the deflection at rest [m·√kg]
   double radius = 0.0;               ///< √J_c [m·√kg]

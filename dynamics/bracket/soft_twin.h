@@ -43,7 +43,7 @@ Eigen::VectorXd insert_soft_modes(const SoftTwin& twin, const Eigen::VectorXd& q
 Eigen::VectorXd make_softening(const SoftTwin& twin);
 
 /// Mass matrices by which the kinetic energy of the true vehicle is at most above that of the soft twin, and
-/// below it, each for other weights of its parts (linear, eqs. 19, 20). With each of them the bounds hold.
+/// below it, each for other weights of its parts (bracket, eqs. 1, 2). With each of them the bounds hold.
 struct UnknownMass {
   std::vector<Eigen::MatrixXd> above;  ///< for the coordinates of the soft twin
   std::vector<Eigen::MatrixXd> below;  ///< for those that are no soft modes

@@ -21,7 +21,7 @@ struct Equilibrium {
   Eigen::VectorXd q;                      ///< num_coordinates
   std::vector<NeutralDirection> neutral;  ///< held at their start value
   double last_step = 0.0;                 ///< size of the last Newton step [natural sizes]
-  double rounding_step = 0.0;             ///< the step that rounding alone may cause (linear, eq. 16)
+  double rounding_step = 0.0;             ///< the step that rounding alone may cause (linear, eq. 9)
   int iterations = 0;                     ///< steps taken, each with a new or the previous stiffness
   bool stable = true;                     ///< see `find_equilibrium`
   SteadyMotion motion;          ///< of the frame in which it is an equilibrium; rest for a static one

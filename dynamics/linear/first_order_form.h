@@ -5,7 +5,7 @@
 
 namespace sprung::dynamics {
 
-/// M ẍ + C ẋ + K x = F as ż = A z + (0, VᵀF) in the undamped modes y = V⁻¹x (linear, eq. 9). The states z are
+/// M ẍ + C ẋ + K x = F as ż = A z + (0, VᵀF) in the undamped modes y = V⁻¹x (linear, eq. 4). The states z are
 /// σy of the modes with stiffness, σ = √|ω²|, followed by ẏ of all modes. Free modes, those without
 /// stiffness, come first in y, and only their velocities are states. So the rounding of A is relative to the
 /// frequency of each mode. Checked by tests/dynamics/linear/frequency_solver_test.cpp
@@ -13,7 +13,7 @@ struct FirstOrderForm {
   Eigen::MatrixXd V;          ///< f×f, VᵀMV = 1
   Eigen::Index num_free = 0;  ///< number of free modes
   Eigen::VectorXd scale;      ///< σ of the others [rad/s], f − num_free
-  Eigen::VectorXd rounding;   ///< of each ω² (linear, eq. 15) [rad²/s²], f
+  Eigen::VectorXd rounding;   ///< of each ω² (linear, eq. 8) [rad²/s²], f
   Eigen::MatrixXd A;          ///< s×s, s = 2f − num_free
 
   Eigen::Index num_bound() const { return scale.size(); }

@@ -9,7 +9,7 @@ namespace sprung::dynamics {
 
 /// Bounds on the undamped frequencies of a model, for each freedom of the motion, without internal states
 /// [Hz]. The k-th frequency in ascending order lies between the k-th of both, whatever rounding has done to
-/// the stiffness (linear, eqs. 14, 15). The two are equal but for that.
+/// the stiffness (linear, eqs. 7, 8). The two are equal but for that.
 struct FrequencyBounds {
   Eigen::VectorXd lower, upper;  ///< ascending
 };

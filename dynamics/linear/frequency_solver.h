@@ -7,7 +7,7 @@
 namespace sprung::dynamics {
 
 /// Solves (K + iωC − ω²M) x = F for many ω: one complex Schur form, then a triangular system for each ω
-/// (linear, eq. 9). Any C and K are allowed, also those without a basis of eigenvectors (critical damping).
+/// (linear, eq. 4). Any C and K are allowed, also those without a basis of eigenvectors (critical damping).
 /// f freedoms.
 /// Source: [Golub & Van Loan 2013], §7.1.3 (Schur form), §7.6 — checked by
 /// tests/dynamics/linear/frequency_solver_test.cpp

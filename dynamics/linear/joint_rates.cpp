@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/linear/linear_vehicle.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -22,7 +21,7 @@ constexpr double kNoRate = 1e-12;         // m/s or rad/s that counts as none
 constexpr double kDetermined = 1e-9;      // mobility left by the joints, of that without joints
 constexpr double kSingularPivot = 1e-12;  // of the largest
 
-// The velocities that joints allow, and the least changes among them (linear, eq. 17).
+// The velocities that joints allow, and the least changes among them (linear, eq. 10).
 class AllowedVelocities {
  public:
   // @param inverse_metric  nq; coordinates with 0 do not change

@@ -17,7 +17,7 @@ struct JointRate {
 
 /// Changes velocities that the joints allow by the least amount, as assemble_positions does positions, so
 /// that the joints have the given rates: light bodies change most, and modes not at all unless the joints
-/// need them (linear, eq. 17).
+/// need them (linear, eq. 10).
 /// @param q          assembled positions at t = 0, num_coordinates
 /// @param[in,out] v  velocities that satisfy the constraints, num_coordinates
 /// @throws support::InputError at the first rate that contradicts the joints, prescribed motion or the rates

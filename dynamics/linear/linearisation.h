@@ -14,18 +14,18 @@ namespace sprung::dynamics {
 struct LinearisedSystem {
   Partition partition;
   Eigen::MatrixXd mass, damping, stiffness;  ///< f×f
-  Eigen::MatrixXd stiffness_rounding;        ///< f×f, ≥ 0: R (linear, eq. 14)
+  Eigen::MatrixXd stiffness_rounding;        ///< f×f, ≥ 0: R (linear, eq. 7)
   Eigen::MatrixXd directions;                ///< nq×f, ∂q/∂q_i
   Eigen::VectorXd force;                     ///< f, residual: 0 at an equilibrium
-  Eigen::VectorXd force_rounding;            ///< f, ≥ 0: r (linear, eq. 16)
+  Eigen::VectorXd force_rounding;            ///< f, ≥ 0: r (linear, eq. 9)
 };
 
 /// Linearises the vehicle about rest, or about steady motion in the coordinates relative to it
-/// (linear, eqs. 1–5). Stiffness and damping come from central differences, so that a kink counts with the
-/// mean of its two slopes; those of the stiffness are extrapolated to fourth order. The stiffness of the
+/// (linear, eqs. 1, 2, 5, 6). Stiffness and damping come from central differences, so that a kink counts with
+/// the mean of its two slopes; those of the stiffness are extrapolated to fourth order. The stiffness of the
 /// bodies' modes is added without a difference, so that stiff modes cause no rounding error.
 /// @param q            assembled positions; the branches are chosen at each point of the differences
-/// @param[out] spread  f×f, ≥ 0: how far the slopes of the stiffness lie apart (linear, eq. 21); may be null
+/// @param[out] spread  f×f, ≥ 0: how far the slopes of the stiffness lie apart (linear, eq. 12); may be null
 /// @throws support::NumericalError if the constraints cannot be satisfied around q
 /// Checked by tests/dynamics/linear/vehicle_modes_test.cpp, tests/verification/steady_test.py
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,

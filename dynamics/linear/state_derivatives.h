@@ -28,7 +28,7 @@ using StateFunction =
 /// @param q_independent  f
 /// @param motion         rest means rest relative to this motion
 /// @param[out] spread    p×f, ≥ 0: how far the slopes within the differences lie apart, by kinks and by
-///                       strong curvature (linear, eq. 21); may be null
+///                       strong curvature (linear, eq. 12); may be null
 /// @return p×f
 /// @throws support::NumericalError where the constraints cannot be satisfied around q_independent
 Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, double time,

@@ -10,7 +10,7 @@ namespace sprung::dynamics {
 /// Steady motion of a whole system: all bodies follow one rigid motion of the plane at constant rates,
 /// Ṙ = velocity + omega S R and θ̇ = omega. The coordinates ρ relative to this motion satisfy
 ///
-///     q̇ = w(q) + ρ̇,   q̈ = ρ̈ + omega S (2ρ̇ + w)  (of R alone)                  (linear, eq. 4)
+///     q̇ = w(q) + ρ̇,   q̈ = ρ̈ + omega S (2ρ̇ + w)  (of R alone)                  (linear, eq. 5)
 ///
 /// Rest is the steady motion that is zero.
 struct SteadyMotion {

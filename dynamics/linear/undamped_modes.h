@@ -14,7 +14,7 @@ inline constexpr double kRoundingUnit = 100.0 * std::numeric_limits<double>::eps
 struct UndampedModes {
   Eigen::VectorXd omega_squared;  ///< ascending [rad²/s²]
   Eigen::MatrixXd vectors;        ///< f×f, xᵀMx = 1
-  Eigen::VectorXd rounding;       ///< of each ω² (linear, eq. 15)
+  Eigen::VectorXd rounding;       ///< of each ω² (linear, eq. 8)
 
   /// Whether mode k is free: its stiffness is not above rounding.
   bool is_free(Eigen::Index k) const { return std::abs(omega_squared[k]) <= rounding[k]; }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/linear/linear_vehicle.h"
+#include "dynamics/response/linear_vehicle.h"
 #include "dynamics/mode_choice/neglect_measure.h"
 
 namespace sprung::dynamics {
@@ -54,7 +54,7 @@ struct BasisChoice {
 };
 
 /// Leaves out clusters of modes, those of the smallest shares first, as long as the share of all that are
-/// left out stays below the tolerance (mode_choice, eqs. 1–6; linear, eqs. 12, 13). At a tolerance of 0 all
+/// left out stays below the tolerance (mode_choice, eqs. 1–6; response, eqs. 6, 7). At a tolerance of 0 all
 /// modes are kept.
 /// @param vehicle    with all candidates active, at its equilibrium
 /// @param places     points and sections that are watched

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/linear/linear_vehicle.h"
+#include "dynamics/response/linear_vehicle.h"
 #include "dynamics/road/road.h"
 
 namespace sprung::dynamics {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/linear/linear_outputs.h"
+#include "dynamics/response/linear_outputs.h"
 #include "dynamics/mode_choice/forcing_spectrum.h"
 
 namespace sprung::dynamics {

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "dynamics/linear/linear_outputs.h"
-#include "dynamics/linear/random_linearisation.h"
+#include "dynamics/response/linear_outputs.h"
+#include "dynamics/response/random_linearisation.h"
 #include "dynamics/mode_choice/forcing_spectrum.h"
 
 namespace sprung::dynamics {

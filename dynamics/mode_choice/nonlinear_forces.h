@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/linear/harmonic_sweep.h"
-#include "dynamics/linear/linear_vehicle.h"
+#include "dynamics/response/harmonic_sweep.h"
+#include "dynamics/response/linear_vehicle.h"
 
 namespace sprung::dynamics {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/linear/harmonic_sweep.h"
+#include "dynamics/response/harmonic_sweep.h"
 #include "dynamics/mode_choice/watched_quantities.h"
 
 namespace sprung::dynamics {

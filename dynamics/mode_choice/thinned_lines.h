@@ -8,7 +8,7 @@ namespace sprung::dynamics {
 /// Selected lines of m lines of a spectrum, each of which represents an interval of lines around it: all of
 /// the lowest lines, then lines at distances proportional to their frequency. Smooth transfer functions are
 /// summed over all lines by the power of the inputs in each interval. Checked by
-/// tests/dynamics/linear/harmonic_sweep_test.cpp
+/// tests/dynamics/response/harmonic_sweep_test.cpp
 struct ThinnedLines {
   std::vector<Eigen::Index> lines;       ///< ascending, first 0, last m − 1
   std::vector<Eigen::Index> ends;        ///< first line after each interval

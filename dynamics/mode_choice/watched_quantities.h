@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/linear/linear_outputs.h"
+#include "dynamics/response/linear_outputs.h"
 #include "dynamics/mode_choice/judged_quantities.h"
 
 namespace sprung::dynamics {

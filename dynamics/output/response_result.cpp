@@ -1,6 +1,6 @@
 #include "dynamics/output/response_result.h"
 
-#include "dynamics/linear/random_response.h"
+#include "dynamics/response/random_response.h"
 
 namespace sprung::dynamics {
 

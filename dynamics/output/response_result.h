@@ -6,7 +6,7 @@
 
 #include "dynamics/input/run.h"
 #include "dynamics/input/vehicle.h"
-#include "dynamics/linear/linear_outputs.h"
+#include "dynamics/response/linear_outputs.h"
 #include "dynamics/statistics/run_warnings.h"
 
 namespace sprung::dynamics {

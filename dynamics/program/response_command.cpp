@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/linear/linear_outputs.h"
-#include "dynamics/linear/random_linearisation.h"
+#include "dynamics/response/linear_outputs.h"
+#include "dynamics/response/random_linearisation.h"
 #include "dynamics/output/response_report.h"
 #include "dynamics/output/response_writer.h"
 #include "dynamics/preparation/start_state.h"

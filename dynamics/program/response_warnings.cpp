@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "dynamics/functions/mean_slope.h"
-#include "dynamics/linear/held_modes_effect.h"
+#include "dynamics/response/held_modes_effect.h"
 #include "dynamics/output/response_report.h"
 #include "dynamics/output/resting_forces.h"
 #include "dynamics/preparation/full_model.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dynamics/linear/linear_vehicle.h"
+#include "dynamics/response/linear_vehicle.h"
 #include "dynamics/output/response_result.h"
 #include "dynamics/preparation/prepared_run.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dynamics/input/vehicle.h"
-#include "dynamics/linear/linear_outputs.h"
+#include "dynamics/response/linear_outputs.h"
 
 namespace sprung::dynamics {
 

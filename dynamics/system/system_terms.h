@@ -153,4 +153,8 @@ class SystemTerms {
   SystemForces forces_;
 };
 
+/// Derivative of a marker's motion (δx, δy, δangle), world axes, with respect to the coordinates: 3×nq.
+/// @param terms  evaluated so that the marker's position is up to date
+Eigen::MatrixXd calc_marker_jacobian(const SystemTerms& terms, int marker);
+
 }  // namespace sprung::dynamics

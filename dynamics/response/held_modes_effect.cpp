@@ -1,4 +1,4 @@
-#include "dynamics/linear/held_modes_effect.h"
+#include "dynamics/response/held_modes_effect.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "dynamics/linear/harmonic_sweep.h"
+#include "dynamics/response/harmonic_sweep.h"
 
 namespace sprung::dynamics {
 

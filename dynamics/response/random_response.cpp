@@ -1,4 +1,4 @@
-#include "dynamics/linear/random_response.h"
+#include "dynamics/response/random_response.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "dynamics/linear/adaptive_integral.h"
+#include "dynamics/response/adaptive_integral.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {

@@ -1,4 +1,4 @@
-#include "dynamics/linear/adaptive_integral.h"
+#include "dynamics/response/adaptive_integral.h"
 
 #include <fmt/format.h>
 #include <array>

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/linear/random_response.h"
+#include "dynamics/response/random_response.h"
 
 namespace sprung::dynamics {
 
@@ -23,7 +23,7 @@ RandomLaws find_random_laws(const LinearVehicle& vehicle, std::size_t force);
 
 /// Gives elements whose laws are far from linear, as those of friction and of dampers with more than one
 /// slope, the linear laws that belong to the root mean squares of the element's own motion on the road, which
-/// depend on these laws (linear, "Laws for random motion").
+/// depend on these laws (response, "Laws for random motion").
 /// @param[in,out] vehicle  linearised at rest
 /// @return the elements; empty where there are none
 /// @throws support::NumericalError as calc_root_mean_squares, and where the iteration does not settle

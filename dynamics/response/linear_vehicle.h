@@ -30,9 +30,9 @@ struct RoadAction {
 };
 
 /// A vehicle at rest on level ground, linearised, with the road as its input: M̂ δq̈ + Ĉ δq̇ + K̂ δq = Dᵀ δQ
-/// in f independent coordinates, nq coordinates in all, k road inputs (linear, eqs. 6–9; forces, eqs. 11–13).
+/// in f independent coordinates, nq coordinates in all, k road inputs (response, eqs. 1–3; linear, eq. 4; forces, eqs. 11–13).
 /// LinearOutputs compute quantities from its motion.
-/// Checked by tests/dynamics/linear/linear_vehicle_test.cpp
+/// Checked by tests/dynamics/response/linear_vehicle_test.cpp
 class LinearVehicle {
  public:
   /// @param model  on level ground; must outlive this
@@ -89,9 +89,5 @@ class LinearVehicle {
 
 /// Slopes of the laws of dampers among some laws, as PartitionedEquations takes them.
 std::vector<std::vector<double>> list_rate_slopes(const std::vector<RandomLaws>& laws);
-
-/// Derivative of a marker's motion (δx, δy, δangle), world axes, with respect to the coordinates: 3×nq.
-/// @param terms  evaluated so that the marker's position is up to date
-Eigen::MatrixXd calc_marker_jacobian(const SystemTerms& terms, int marker);
 
 }  // namespace sprung::dynamics

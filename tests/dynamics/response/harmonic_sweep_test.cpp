@@ -1,6 +1,6 @@
 // A vehicle at many frequencies: uncoupled blocks against a solution of the equations at each, modes held or
 // not.
-#include "dynamics/linear/harmonic_sweep.h"
+#include "dynamics/response/harmonic_sweep.h"
 
 #include <Eigen/LU>
 #include <cmath>

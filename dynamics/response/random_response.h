@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/linear/linear_outputs.h"
+#include "dynamics/response/linear_outputs.h"
 #include "dynamics/road/road_spectrum.h"
 
 namespace sprung::dynamics {
@@ -14,7 +14,7 @@ struct FrequencyRange {
 };
 
 /// One-sided spectral densities of the outputs of a vehicle on a random road, p [unit²/Hz]:
-/// |H|² G(n)/V at n = f/V (linear, eq. 11).
+/// |H|² G(n)/V at n = f/V (response, eq. 5).
 /// @param speed         > 0 [m/s]
 /// @param frequency_hz  > 0 [Hz]
 Eigen::VectorXd calc_response_spectrum(const LinearVehicle& vehicle, const LinearOutputs& outputs,
@@ -26,7 +26,7 @@ Eigen::VectorXd calc_response_spectrum(const LinearVehicle& vehicle, const Linea
 /// @throws std::invalid_argument for an empty range or a speed that is not positive
 /// @throws support::NumericalError where the integral does not converge at an undamped resonance, which the
 ///         message names
-/// Checked by tests/dynamics/linear/linear_vehicle_test.cpp
+/// Checked by tests/dynamics/response/linear_vehicle_test.cpp
 Eigen::VectorXd calc_root_mean_squares(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                                        const RoadSpectrum& road, double speed, const FrequencyRange& range);
 

@@ -1,4 +1,4 @@
-#include "dynamics/linear/linear_vehicle.h"
+#include "dynamics/response/linear_vehicle.h"
 
 #include <algorithm>
 #include <limits>
@@ -116,22 +116,6 @@ Eigen::VectorXcd LinearVehicle::calc_delays(const RoadWave& wave) const {
         std::polar(1.0, wave.wavenumber * (inputs_[i].distance - foremost));
   }
   return delays;
-}
-
-Eigen::MatrixXd calc_marker_jacobian(const SystemTerms& terms, int marker) {
-  const Model& model = terms.model();
-  const Marker& point = model.markers[static_cast<std::size_t>(marker)];
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3, model.num_coordinates);
-  if (point.body == kGround) return jacobian;
-  const Body& body = model.bodies[static_cast<std::size_t>(point.body)];
-  const MarkerState& state = terms.markers()[static_cast<std::size_t>(marker)];
-  const int first = body.first_coordinate;
-  jacobian.block<2, 2>(0, first).setIdentity();
-  jacobian.block<2, 1>(0, first + 2) = state.r_theta;
-  jacobian(2, first + 2) = 1.0;
-  jacobian.block(0, first + 3, 2, body.num_modes()) = state.r_eta();
-  jacobian.block(2, first + 3, 1, body.num_modes()) = state.Phi.row(2);
-  return jacobian;
 }
 
 }  // namespace sprung::dynamics

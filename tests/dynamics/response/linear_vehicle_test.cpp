@@ -1,4 +1,4 @@
-#include "dynamics/linear/linear_vehicle.h"
+#include "dynamics/response/linear_vehicle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "dynamics/forces/point_contact_tyre.h"
 #include "dynamics/linear/equilibrium.h"
-#include "dynamics/linear/linear_outputs.h"
-#include "dynamics/linear/random_response.h"
+#include "dynamics/response/linear_outputs.h"
+#include "dynamics/response/random_response.h"
 #include "dynamics/road/flat_road.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"

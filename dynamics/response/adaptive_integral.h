@@ -19,7 +19,7 @@ struct AdaptiveIntegral {
 /// @param tolerance  error allowed in one panel, as a fraction of each function's integral
 /// @param floors     p absolute errors, from the integrals, below which an error is always allowed
 /// @throws std::invalid_argument for fewer than 2 breaks
-/// Source: [Piessens 1983], rule QK15 — checked by tests/dynamics/linear/adaptive_integral_test.cpp
+/// Source: [Piessens 1983], rule QK15 — checked by tests/dynamics/response/adaptive_integral_test.cpp
 AdaptiveIntegral integrate(const std::function<Eigen::VectorXd(double)>& function,
                            const std::vector<double>& breaks, double tolerance,
                            const std::function<Eigen::VectorXd(const Eigen::VectorXd& values)>& floors);

@@ -1,4 +1,4 @@
-#include "dynamics/linear/harmonic_sweep.h"
+#include "dynamics/response/harmonic_sweep.h"
 
 #include <fmt/format.h>
 

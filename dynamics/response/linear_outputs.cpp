@@ -1,4 +1,4 @@
-#include "dynamics/linear/linear_outputs.h"
+#include "dynamics/response/linear_outputs.h"
 #include "tools/support/dense/dense_solvers.h"
 
 #include <fmt/format.h>

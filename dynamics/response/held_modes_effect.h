@@ -3,15 +3,15 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/linear/linear_outputs.h"
-#include "dynamics/linear/random_response.h"
+#include "dynamics/response/linear_outputs.h"
+#include "dynamics/response/random_response.h"
 
 namespace sprung::dynamics {
 
 /// Change of the size of each output where some modal coordinates are held: (with them held)/(with all) − 1.
 /// An output whose size is below a thousandth of the largest one in the same unit counts as having that size.
 /// The sizes are root mean squares on a random road or, without one, of the transfer function over the
-/// logarithm of the frequency; both by the trapezoidal rule over 2000 frequencies (linear, eqs. 12, 13).
+/// logarithm of the frequency; both by the trapezoidal rule over 2000 frequencies (response, eqs. 6, 7).
 /// @param outputs      p
 /// @param coordinates  held, as positions in q
 /// @param road         null: none

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/linear/linear_vehicle.h"
+#include "dynamics/response/linear_vehicle.h"
 
 namespace sprung::dynamics {
 
@@ -22,7 +22,7 @@ struct OutputSubject {
 
 /// p outputs of a linear vehicle, named as in a results file. They depend on the motion x of its f
 /// independent coordinates, on the generalized forces of the road on its nq coordinates, and on the road
-/// directly (linear, eq. 10).
+/// directly (response, eq. 4).
 struct LinearOutputs {
   std::vector<std::string> names;  ///< "points/chassis.seat/acceleration.y"
   std::vector<std::string> units;
@@ -62,10 +62,10 @@ ForceEffects calc_force_effects(const LinearVehicle& vehicle);
 LinearOutputs make_state_outputs(const LinearVehicle& vehicle, const StateFunction& function);
 
 /// Reactions of all joints, x, y and torque at their point a.
-/// Checked by tests/dynamics/linear/linear_vehicle_test.cpp
+/// Checked by tests/dynamics/response/linear_vehicle_test.cpp
 LinearOutputs make_reaction_outputs(const LinearVehicle& vehicle);
 
-/// The outputs for k motions of the independent coordinates at once (linear, eq. 10).
+/// The outputs for k motions of the independent coordinates at once (response, eq. 4).
 /// @param omega     [rad/s]
 /// @param x         motions, f×k
 /// @param forces    generalized forces of the road, nq×k
@@ -76,7 +76,7 @@ Eigen::MatrixXcd sum_outputs(const LinearOutputs& outputs, double omega, const E
 
 /// Complex amplitudes of the outputs for a wave of 1 m at one input at a time: p×k for k inputs. Their
 /// product with calc_delays() is the response to a wave under all inputs. Checked by
-/// tests/dynamics/linear/linear_vehicle_test.cpp
+/// tests/dynamics/response/linear_vehicle_test.cpp
 Eigen::MatrixXcd calc_transfer(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                                const RoadWave& wave);
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/linear/frequency_solver.h"
-#include "dynamics/linear/linear_outputs.h"
+#include "dynamics/response/linear_outputs.h"
 
 namespace sprung::dynamics {
 
@@ -23,19 +23,19 @@ struct DrivenSystem {
   Eigen::MatrixXd by_force;                  ///< p×f, or empty for none
 };
 
-/// A vehicle with some modal coordinates held, under forces on its f independent coordinates (linear, eq.
-/// 12). Its outputs include the effect of the reactions of the held coordinates, but not the direct effect of
+/// A vehicle with some modal coordinates held, under forces on its f independent coordinates (response, eq.
+/// 6). Its outputs include the effect of the reactions of the held coordinates, but not the direct effect of
 /// the road.
 /// @param coordinates  the held ones, as positions in q; may be empty
-/// Checked by tests/dynamics/linear/harmonic_sweep_test.cpp
+/// Checked by tests/dynamics/response/harmonic_sweep_test.cpp
 DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                               const std::vector<int>& coordinates);
 
 /// Outputs of a system under harmonic forces at many frequencies. The first-order form is transformed to
-/// uncoupled blocks of one or two rows once, so that each frequency costs a few products (linear, eq. 13). A
+/// uncoupled blocks of one or two rows once, so that each frequency costs a few products (response, eq. 7). A
 /// free mode has its velocity alone as a state. Where the eigenvectors are dependent, or nearly so, a Schur
 /// form is used, which is slower.
-/// Checked by tests/dynamics/linear/harmonic_sweep_test.cpp
+/// Checked by tests/dynamics/response/harmonic_sweep_test.cpp
 class HarmonicSweep {
  public:
   /// @throws support::NumericalError if the mass is not positive definite

@@ -1,4 +1,4 @@
-#include "dynamics/linear/random_linearisation.h"
+#include "dynamics/response/random_linearisation.h"
 
 #include <fmt/format.h>
 
