@@ -83,7 +83,7 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
   const Eigen::VectorXd q = equations.q(), forces = equations.terms().forces();
   const Eigen::Index f = q_i.size(), n = model.num_coordinates;
   // The reduced force, followed by the forces themselves, whose sizes give its rounding.
-  const Eigen::MatrixXd derivative = differentiate_by_position(
+  const auto [derivative, steps] = differentiate_by_position(
       equations, time, q_i,
       [&](const PartitionedEquations& at, auto) {
         const Eigen::VectorXd without_modal = at.terms().forces() + apply_modal_stiffness(model, at.q() - q);
@@ -117,10 +117,12 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
     return (pattern.transpose() * scales.cwiseProduct(of_forces)).cwiseProduct(by_scale.transpose());
   };
   const Eigen::MatrixXd of_work = calc_work(forces.cwiseAbs() + kPositionStep * changes) * by_scale;
+  const Eigen::VectorXd per_step = steps.cwiseInverse();
+  const Eigen::MatrixXd of_columns = of_work * per_step.asDiagonal();
   system.stiffness_rounding =
-      kRoundingUnit *
-      (sizes.transpose() * (apply_modal_stiffness(model, errors, true) + gradient / kPositionStep) +
-       (of_work + of_work.transpose()) / (2.0 * kPositionStep));
+      kRoundingUnit * (sizes.transpose() * (apply_modal_stiffness(model, errors, true) +
+                                            Eigen::MatrixXd(gradient * per_step.asDiagonal())) +
+                       0.5 * (of_columns + of_columns.transpose()));
   const Eigen::VectorXd moved = calc_coordinate_rounding(model, system.partition, q);
   system.force_rounding = kRoundingUnit * (calc_work(forces.cwiseAbs()) + sizes.transpose() * changes) +
                           sizes.transpose() * apply_modal_stiffness(model, moved, true);

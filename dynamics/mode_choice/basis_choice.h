@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/response/linear_vehicle.h"
 #include "dynamics/mode_choice/neglect_measure.h"
+#include "dynamics/response/linear_vehicle.h"
 
 namespace sprung::dynamics {
 

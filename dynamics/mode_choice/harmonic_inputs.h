@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/response/linear_outputs.h"
 #include "dynamics/mode_choice/forcing_spectrum.h"
+#include "dynamics/response/linear_outputs.h"
 
 namespace sprung::dynamics {
 

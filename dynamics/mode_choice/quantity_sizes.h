@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/response/harmonic_sweep.h"
 #include "dynamics/mode_choice/watched_quantities.h"
+#include "dynamics/response/harmonic_sweep.h"
 
 namespace sprung::dynamics {
 

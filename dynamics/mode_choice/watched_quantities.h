@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/response/linear_outputs.h"
 #include "dynamics/mode_choice/judged_quantities.h"
+#include "dynamics/response/linear_outputs.h"
 
 namespace sprung::dynamics {
 

@@ -110,7 +110,7 @@ void differentiate(const LinearVehicle& vehicle, const StateFunction& function, 
   const Eigen::VectorXd q_i = vehicle.independent_positions();
   calc_static_force(equations, 0.0, q_i);
   by_velocity = differentiate_by_velocity(equations, function);
-  by_position = differentiate_by_position(equations, 0.0, q_i, function);
+  by_position = differentiate_by_position(equations, 0.0, q_i, function).value;
 }
 
 bool is_quantity(const Channel& channel) {

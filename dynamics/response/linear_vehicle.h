@@ -30,9 +30,9 @@ struct RoadAction {
 };
 
 /// A vehicle at rest on level ground, linearised, with the road as its input: M̂ δq̈ + Ĉ δq̇ + K̂ δq = Dᵀ δQ
-/// in f independent coordinates, nq coordinates in all, k road inputs (response, eqs. 1–3; linear, eq. 4; forces, eqs. 11–13).
-/// LinearOutputs compute quantities from its motion.
-/// Checked by tests/dynamics/response/linear_vehicle_test.cpp
+/// in f independent coordinates, nq coordinates in all, k road inputs (response, eqs. 1–3; linear, eq. 4;
+/// forces, eqs. 11–13). LinearOutputs compute quantities from its motion. Checked by
+/// tests/dynamics/response/linear_vehicle_test.cpp
 class LinearVehicle {
  public:
   /// @param model  on level ground; must outlive this

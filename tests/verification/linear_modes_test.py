@@ -73,10 +73,36 @@ class LinearModes(VerificationCase):
     def test_a_kink_at_rest_is_told_beside_the_modes(self):
         found = self.find_modes("{ table = [[-1.0, -100.0], [0.0, 0.0], [1.0, 400.0]] }")
         (text,) = (one["text"] for one in found["warnings"])
-        self.assertEqual(
-            text, "'mount' changes its law at static equilibrium or very close to it: a mean slope is used"
-        )
+        self.assertEqual(text, "'mount' changes its law at static equilibrium: the mean of its two slopes is used")
         self.assertEqual(self.find_modes("{ table = [[-1.0, -100.0], [0.2, 20.0], [1.0, 400.0]] }")["warnings"], [])
+
+    def test_the_slope_at_rest_counts_however_close_a_kink_is(self):
+        # The natural size is 20 m. A kink at 2 to 4 mm gave 4/3 of one slope less 1/3 of the other.
+        far = '[bodies.far]\nmass = 1.0\ninertia = 1.0\nposition = [0.0, 0.0]\n' \
+              'points = { tip = [20.0, 0.0] }\n[[joints]]\nname = "held"\ntype = "fixed"\n' \
+              'a = "ground.origin"\nb = "far.origin"\n'  # fmt: skip
+        for kink in (5e-3, 3e-3, 1e-3, 1e-4, 1e-5):
+            below = f"{{ table = [[-1.0, -100.0], [{kink}, {100.0 * kink}], [1.0, {400.0 - 300.0 * kink}]] }}"
+            above = f"{{ table = [[-1.0, {-100.0 - 300.0 * kink}], [{-kink}, {-400.0 * kink}], [1.0, 400.0]] }}"
+            for spring, stiffness in ((below, 100.0), (above, 400.0)):
+                with self.subTest(kink=kink, stiffness=stiffness):
+                    found = self.find_modes(spring, far)
+                    omega = [2.0 * math.pi * mode["undamped_frequency"] for mode in found["modes"]]
+                    expected = sorted(math.sqrt(k) for k in (stiffness, 110.0, 400.0))
+                    self.assert_close(sorted(omega), expected, relative=1e-6)
+                    said = ["'mount' changes its law very close to static equilibrium: its slope there is used, which "
+                            "holds in small motion alone"] if kink < 4e-3 else []  # fmt: skip
+                    self.assertEqual([one["text"] for one in found["warnings"]], said)
+
+    def test_the_slope_of_a_damper_at_rest_counts_however_close_its_knees_are(self):
+        # 9 N·s/m within ±knee, 1 beyond: ζ = c/2√(km).
+        for knee in (5e-2, 1e-3, 1e-4):
+            with self.subTest(knee=knee):
+                ends = 9.0 * knee + 1.0 - knee
+                table = f"[[-1.0, {-ends}], [{-knee}, {-9.0 * knee}], [{knee}, {9.0 * knee}], [1.0, {ends}]]"
+                found = self.find_modes(f"{{ polynomial = [0.0, 100.0] }}, damper = {{ table = {table} }}")
+                (ratio,) = (mode["damping_ratio"] for mode in found["modes"] if mode["damping_ratio"] > 0.0)
+                self.assert_close(ratio, 9.0 / (2.0 * math.sqrt(100.0)), relative=1e-6)
 
     def test_forces_with_two_slopes_are_named_where_there_are_some(self):
         damper = "damper = { compression = 5.0, rebound = 9.0 }"
