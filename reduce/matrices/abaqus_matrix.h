@@ -12,12 +12,13 @@ Freedom make_abaqus_freedom(std::int64_t node, int direction);
 
 /// Reads a matrix that Abaqus wrote by *MATRIX OUTPUT, in one of two forms: lines of row node, row direction,
 /// column node, column direction, value (FORMAT=MATRIX INPUT), or of row, column, value (FORMAT=COORDINATE).
-/// Comments (**) and a line *MATRIX INPUT are left out.
+/// Comments (**) are left out. SCALE FACTOR of a line *MATRIX INPUT multiplies all entries.
 ///
 /// @param freedoms   of the first form: gets the freedoms that the file names; of the second: those of its
 ///                   rows, which `has_table` says are known
 /// @throws support::InputError at the place of the fault: a line of another form, a row outside of the table
-///         of freedoms, a keyword of another option
+///         of freedoms, a keyword of another option, another parameter of *MATRIX INPUT than NAME,
+///         TYPE=SYMMETRIC and SCALE FACTOR
 /// Source: [Abaqus 2016], "Generating matrices" — checked by tests/reduce/matrices/matrices_test.py
 MatrixEntries read_abaqus_matrix(const std::filesystem::path& path, FreedomList& freedoms, bool has_table);
 

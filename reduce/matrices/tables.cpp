@@ -16,6 +16,10 @@ namespace sprung::reduce {
 namespace {
 
 constexpr std::int64_t kLargestNode = std::numeric_limits<std::int32_t>::max();
+constexpr std::string_view kExpanded =
+    ": CalculiX makes solids of beams and shells, and writes all their nodes under one number; such a frame "
+    "can "
+    "come in by tools/convert_mesh";
 
 bool is_blank(const TextLines& lines) {
   return lines.fields().empty();
@@ -52,11 +56,12 @@ int read_direction(const TextLines& lines, const TextField& cell) {
                         cell.text));
 }
 
+// hint: what may be the cause of a freedom that stands there twice.
 void add_freedom(const TextLines& lines, const TextField& where, const Freedom& freedom,
-                 FreedomList& freedoms) {
+                 FreedomList& freedoms, std::string_view hint = "") {
   const int size = freedoms.size();
   if (freedoms.get(freedom) == size) return;
-  throw lines.error(where, fmt::format("{} stands in the table twice", describe(freedom)));
+  throw lines.error(where, fmt::format("{} stands in the table twice{}", describe(freedom), hint));
 }
 
 }  // namespace
@@ -89,7 +94,7 @@ FreedomList read_calculix_freedoms(const std::filesystem::path& path) {
     const TextField direction{fields[0].text.substr(point + 1),
                               fields[0].column + static_cast<int>(point) + 1};
     add_freedom(lines, node, {lines.integer(node, 1, kLargestNode), read_direction(lines, direction)},
-                freedoms);
+                freedoms, kExpanded);
   }
   if (freedoms.size() == 0) throw lines.error("has no freedoms");
   return freedoms;

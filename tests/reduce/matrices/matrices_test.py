@@ -152,6 +152,17 @@ class MatricesTest(ReduceTestCase):
             self.build(self.write_design("body", f'format = "abaqus"\n{FILES}'))
             self.assert_same("body")
 
+    def test_the_scale_factor_of_matrix_input(self):
+        # Keywords Reference, *MATRIX INPUT: a number "by which all matrix entries will be multiplied".
+        self.build_beam()
+        freedoms = files.plane_freedoms(IDS)
+        self.write_beam_files(lambda path, matrix: files.write_abaqus(path, 4.0 * matrix, freedoms))
+        for name, factor in (("k.mtx", "scale factor = 2.5e-1"), ("m.mtx", "SCALEFACTOR=.25")):
+            text = (self.folder / name).read_text()
+            (self.folder / name).write_text(text.replace("TYPE=SYMMETRIC", f"type = Symmetric, {factor}"))
+        self.build(self.write_design("body", 'format = "abaqus"\n' + FILES.replace('freedoms = "f.csv"\n', "")))
+        self.assert_same("body")
+
     def test_calculix(self):
         self.build_beam()
         self.write_beam_files(files.write_calculix)

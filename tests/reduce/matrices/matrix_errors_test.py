@@ -113,6 +113,11 @@ class MatrixErrorsTest(ReduceTestCase):
         self.assert_errors("k.mtx", [
             ("*MATRIX INPUT", "*MATRIX ASSEMBLE",
              "k.mtx:2: error: '*MATRIX ASSEMBLE, NAME=K, TYPE=SYMMETRIC' is no part"),
+            ("SYMMETRIC", "UNSYMMETRIC", "k.mtx:2:24: error: 'TYPE=UNSYMMETRIC' is not read, expected NAME, TYPE=SYM"),
+            ("NAME=K", "NAME=K, INPUT=b.mtx", "k.mtx:2:24: error: 'INPUT=b.mtx' is not read"),
+            ("NAME=K", "NAME=K, SCALE FACTOR=0.", "k.mtx:2:24: error: the scale factor is 0., expected another"),
+            ("NAME=K", "NAME=K, SCALE FACTOR", "k.mtx:2:24: error: '' is no number"),
+            ("\n2,1, 1,1,", "\n*MATRIX INPUT, NAME=M\n2,1, 1,1,", "k.mtx:4: error: begins a second matrix"),
             ("\n1,1, 1,1, 1.0", "\n1,8, 1,1, 1.0", "k.mtx:3:3: error: '8' is no whole number of 1 … 6"),
             ("1.000000000000000e+05", "1.0e+36",
              "k.mtx:3:11: error: the entry is 1e+36, which stands for a freedom that"),
@@ -168,6 +173,8 @@ class MatrixErrorsTest(ReduceTestCase):
         self.assert_errors("f.dof", [
             ("1.2\n", "12\n", "f.dof:2: error: is '12', expected NODE.DIRECTION"),
             ("1.2\n", "1.9\n", "f.dof:2:3: error: '9' is no direction"),
+            ("1.2\n", "1.1\n", "f.dof:2:1: error: x of node 1 stands in the table twice: CalculiX makes solids of "
+                               "beams and shells, and writes all their nodes under one number; such a frame can"),
         ])
 
     def test_nastran(self):
