@@ -13,8 +13,8 @@ class AbaqusCase(ToolTestCase):
         (self.folder / name).write_text(text, encoding="utf-8")
         return read_abaqus(str(self.folder / name))
 
-    def assert_refused(self, text, message):
-        """Asserts that a deck is refused with a message that begins with the line."""
+    def assert_refused(self, text, message, name="b.inp:"):
+        """Asserts that a deck is refused with a message that begins with the line. name: of the file, with a colon."""
         with self.assertRaises(InputError) as caught:
             self.read(text, "b.inp")
-        self.assertIn(f"b.inp:{message}", str(caught.exception))
+        self.assertIn(f"{name}{message}", str(caught.exception))

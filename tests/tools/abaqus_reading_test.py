@@ -6,6 +6,8 @@ import numpy as np
 from abaqus_case import AbaqusCase
 from small_decks import ABAQUS
 
+from sprung_tools.mesh_import.plane_frame import make_plane_frame
+
 # A leg of 2 m along x, of two lines; its second instance stands upright at x = 3: moved by (3, 0), then turned by 90°
 # about the line through (3, 0) along z.
 PART = (
@@ -212,6 +214,33 @@ class AbaqusReading(AbaqusCase):
             (self.folder / "b.inp").write_text(nodes + data, encoding="utf-8")
             process = self.run_tool("convert_mesh", "b.inp", "a.msh")
             self.assert_refuses(process, "b.inp:9: error: *N", ": expects a number, but the field is blank")
+
+    def test_elements_that_would_be_generated_twice_or_without_a_number_are_refused(self):
+        start = "*NODE\n1, 0., 0.\n9, 8., 0.\n*NGEN\n1, 9\n*ELEMENT, TYPE=B31\n1, 1, 2\n*ELGEN, ELSET=E\n"
+        for data, message in (
+            ("1, 3, 1, 0\n", "generates 3 elements by an increment of 0"),
+            ("1, 3, 0, 1\n", "generates 3 elements by an increment of 0"),
+            ("1, 3, 1, -1\n", "generates element -1, but numbers begin at 1"),
+            ("1, 3, 1, 1, 2, 3, 2\n", "generates an element twice"),
+            ("1, 0\n", "generates 0 elements in a row"),
+        ):
+            with self.subTest(data):
+                self.assert_refused(start + data, f"9: error: *ELGEN: {message}")
+        self.assertEqual(self.read(start + "1, 1, 0, 0, 2, 1, 1\n").line_ids.tolist(), [1, 2])
+
+    def test_a_second_part_of_one_name_is_refused(self):
+        again = PART.replace("NAME=LEG", "NAME=leg") + ASSEMBLY.format(sets="")
+        self.assert_refused(PART + again, "14: error: *PART: a second part of the name 'leg'")
+
+    def test_a_section_in_a_part_belongs_to_the_part_s_set(self):
+        # The assembly has a set of that name, too, with lines of both instances or with the same ones.
+        sets = "*ELSET, ELSET=ALL, INSTANCE={}\n1, 2\n"
+        two = ASSEMBLY.format(sets=sets.format("L-1") + sets.format("L-2"))
+        self.assertEqual(self.read(PART + two).section_sets, ("L-1.ALL", "L-2.ALL"))
+        one = "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=L-1, PART=LEG\n*END INSTANCE\n{}*END ASSEMBLY\n"
+        mesh = self.read(PART + one.format(sets.format("L-1")))
+        self.assertEqual((list(mesh.element_sets), mesh.section_sets), (["ALL", "Assembly.ALL"], ("ALL",)))
+        self.assertEqual(list(make_plane_frame(mesh).curves), ["ALL"])
 
     def test_an_orientation_node_is_counted_on_by_all_nodes_alone(self):
         # Keywords Reference, *ELGEN: nodes that give the first cross-section axis are incremented with ALL NODES.

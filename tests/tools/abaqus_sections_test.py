@@ -7,6 +7,8 @@ from abaqus_case import AbaqusCase
 from polygons import find_extremes, find_farthest, integrate
 from small_decks import ABAQUS
 
+IN_SPACE = ABAQUS.replace("B21", "B31")
+
 
 class AbaqusSections(AbaqusCase):
     """Sections of elements, and the materials that they name or give themselves."""
@@ -89,7 +91,7 @@ class AbaqusSections(AbaqusCase):
                                     ("BEAM GENERAL SECTION, DENSITY=7.8", "0., -1., 0.\n2.6, 1.\n"),
                                     ("BEAM GENERAL SECTION, DENSITY=7.8", "\n2.6, 1.\n")):  # fmt: skip
                 with self.subTest((points, keyword, behind)):
-                    mesh = self.read(f"{ABAQUS}*{keyword}, ELSET=A, SECTION=ARBITRARY\n{rows}{behind}")
+                    mesh = self.read(f"{IN_SPACE}*{keyword}, ELSET=A, SECTION=ARBITRARY\n{rows}{behind}")
                     shape = mesh.sections[0].shape
                     np.testing.assert_allclose(shape[:4], self.integrate_walls(points, walls), rtol=1e-8, atol=1e-7)
                     height = [0, 1, 0] if behind.startswith("\n") else [0, 0, 1]
@@ -151,6 +153,28 @@ class AbaqusSections(AbaqusCase):
                 process = self.run_tool("convert_mesh", "b.inp", "a.msh")
                 self.assert_refuses(process, f"b.inp:{where}: error: *", message)
 
+    def test_parameters_that_are_not_taken_are_told(self):
+        points = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n"
+        section = "*BEAM SECTION, ELSET=A, SECTION=RECT, MATERIAL=M{}\n2., 3.\n"
+        for data, told in (
+            ("*MASS, ELSET=P, ALPHA=.1\n5.\n", "ALPHA of *MASS, ELSET=P, ALPHA=.1 (line 12)"),
+            ("*ROTARY INERTIA, ELSET=R, COMP=.1\n5.\n", "COMPOSITE of *ROTARY INERTIA, ELSET=R, COMPOSITE=.1 (line"),
+            (section.format(", ROTARY INERTIA=ISOTROPIC, LUMPED=NO"), "LUMPED, ROTARY INERTIA of *BEAM SECTION, "),
+        ):
+            with self.subTest(data):
+                self.assertIn(told, "\n".join(self.read(ABAQUS + points + data).left_behind))
+        thick = self.read(ABAQUS + section.format(", NODAL THICKNESS")).sections[0]
+        self.assertEqual((thick.shape, thick.left_out), (None, ("its dimensions at the nodes, by *NODAL THICKNESS",)))
+        pores = self.read(f"{ABAQUS}*MATERIAL, NAME=M\n*DENSITY, PORE FLUID\n1000.\n")
+        self.assertIsNone(pores.materials["M"].density)
+
+    def test_the_shear_coefficient_of_a_user_beam_is_told(self):
+        # CalculiX User's Manual, "General": area, I11, I12, I22 and the shear coefficient of U1.
+        text = "*USER ELEMENT, TYPE=U1\n" + ABAQUS + "*BEAM SECTION, ELSET=A, SECTION=GENERAL, MATERIAL=M\n"
+        for kind, told in (("U1", ["the shear coefficient of its elements U1, 0.85"]), ("B31", [])):
+            section = self.read(text.replace("B21", kind) + "2., 3., 0., 4., .85\n0., 0., 1.\n").sections[0]
+            self.assertEqual(list(section.left_out), told)
+
     def test_digits_that_no_deck_means_are_refused(self):
         # Python's float() and int() take 0.0_5, and digits of other scripts.
         section = "*BEAM SECTION, ELSET=A, SECTION=RECT\n{}, .2\n"
@@ -166,7 +190,7 @@ class AbaqusSections(AbaqusCase):
     def test_a_tapered_section_has_its_direction_and_moduli_behind_both_ends(self):
         # Keywords Reference, *BEAM GENERAL SECTION with TAPER: the second line has the dimensions at node B.
         text = "*BEAM GENERAL SECTION, ELSET=A, SECTION=RECT, TAPER\n.1, .2\n.1, .3\n0., -1., 0.\n2.6, 1.\n"
-        mesh = self.read(ABAQUS + text)
+        mesh = self.read(IN_SPACE + text)
         np.testing.assert_allclose(np.abs(mesh.heights[0]), [0, 0, 1], atol=1e-15)
         self.assertEqual([one.youngs_modulus for one in mesh.materials.values()], [2.6])
         self.assertIn("its taper: the section at the first end is taken", mesh.sections[0].left_out)

@@ -242,7 +242,7 @@ class Refusing(ToolTestCase):
 
     def test_truncated_files(self):
         self.assert_refused("a.inp", ABAQUS[:-3], "no line end: the file is truncated")
-        self.assert_refused("a.inp", ABAQUS[: ABAQUS.index("2, 1.,")] + "2,\n", "node 2 has no coordinates")
+        self.assert_refused("a.inp", ABAQUS[: ABAQUS.index("2, 1.,")] + "2\n", "node 2 has no coordinates")
         self.assert_refused("a.inp", ABAQUS + "*NSET, NSET=B\n7\n", "the set 'B' names node 7, which is not there")
         self.assert_refused("a.inp", "*PART, NAME=A\n" + ABAQUS, "no *END PART follows: the file is truncated")
         self.assert_refused("a.bdf", NASTRAN.replace("GRID,2,,1.,0.,0.\n", ""), "names node 2, which is not there")

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.mesh_import.abaqus_blocks import Block, check_rows, read_integer, read_reals
+from sprung_tools.mesh_import.abaqus_blocks import Block, Place, check_rows, read_integer, read_reals
 from sprung_tools.mesh_import.abaqus_part import Part, SetTable
 from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER
 
@@ -23,6 +23,10 @@ class Instance(NamedTuple):
     translation: Floats  # 3
     nodes: int  # offset of the nodes' numbers
     elements: int  # offset of the elements' numbers
+
+    def find_sets(self, kind: str) -> SetTable:
+        """Its part's sets of nodes (kind: N) or elements (E)."""
+        return self.part.node_sets if kind == "N" else self.part.element_sets
 
 
 def read_placement(block: Block) -> tuple[Floats, Floats]:
@@ -74,6 +78,8 @@ class Assembly(Part):
                 nodes=[node + one.nodes for node in element.nodes],
                 orientation=None if element.orientation is None else element.orientation + one.nodes,
             )
+        for kind, offset in (("N", one.nodes), ("E", one.elements)):
+            self.normals[kind].update(number + offset for number in part.normals[kind])
         self.offsets = {"N": find_offset(block, self.nodes, ()), "E": find_offset(block, self.elements, ())}
 
     def read(self, block: Block) -> None:
@@ -82,13 +88,13 @@ class Assembly(Part):
             block.fail("is not followed beside instances; write the nodes or elements out")
         super().read(block)
 
-    def read_own_number(self, block: Block, line: int, text: str, kind: str) -> int:
+    def read_own_number(self, block: Block, line: Place, text: str, kind: str) -> int:
         number = super().read_own_number(block, line, text, kind) + self.offsets[kind]
         if number > LARGEST_NUMBER:
             block.fail(f"'{text}' would become {number}, but numbers end at {LARGEST_NUMBER}", line)
         return number
 
-    def find_number(self, block: Block, line: int, text: str, kind: str) -> int:
+    def find_number(self, block: Block, line: Place, text: str, kind: str) -> int:
         """The number of a node or an element in the assembly: INSTANCE.27, or 27 where the block names the instance;
         else the assembly's own."""
         name, _, number = text.rpartition(".")
@@ -100,7 +106,7 @@ class Assembly(Part):
             block.fail(f"{one.name} has no {'node' if kind == 'N' else 'element'} {found}", line)
         return found + (one.nodes if kind == "N" else one.elements)
 
-    def find_instance(self, block: Block, name: str, line: int | None) -> Instance | None:
+    def find_instance(self, block: Block, name: str, line: Place | None) -> Instance | None:
         """The instance of a name; None for an empty one. InputError if it is not there."""
         if not name:
             return None
@@ -108,46 +114,60 @@ class Assembly(Part):
             block.fail(f"names the instance '{name}', which is not there", line)
         return self.instances[name.upper()]
 
-    def find_members(self, block: Block, sets: SetTable, kind: str, name: str, line: int | None = None) -> list[int]:
-        """The members of a set: that of the instance which the block names, else the assembly's, else an instance's,
-        named by INSTANCE.SET; of a single instance by SET alone."""
-        found = find_in_instance(self.find_instance(block, block.parameters.get("INSTANCE", ""), line), kind, name)
-        if found is None:
-            found = sets.find(name)
-        if found is None:
-            instance, _, rest = name.rpartition(".")
-            found = find_in_instance(self.instances.get(instance.upper()), kind, rest)
-        if found is None and len(self.instances) == 1:
-            found = find_in_instance(next(iter(self.instances.values())), kind, name)
-        if found is None:
-            block.fail(f"names the set '{name}', which is not there", line)
-        return found
+    def find_owner(
+        self, block: Block, sets: SetTable, kind: str, name: str, line: Place | None = None
+    ) -> tuple[Instance | None, str]:
+        """Who has the set that a text names, None for the assembly itself, and its name there: the instance that the
+        block names, else the assembly, else an instance, named by INSTANCE.SET; a single instance by SET alone."""
+        named = self.find_instance(block, block.parameters.get("INSTANCE", ""), line)
+        if find_in_instance(named, kind, name) is not None:
+            return named, name
+        if sets.find(name) is not None:
+            return None, name
+        instance, _, rest = name.rpartition(".")
+        named = self.instances.get(instance.upper())
+        if find_in_instance(named, kind, rest) is not None:
+            return named, rest
+        if len(self.instances) == 1:
+            (named,) = self.instances.values()
+            if find_in_instance(named, kind, name) is not None:
+                return named, name
+        block.fail(f"names the set '{name}', which is not there", line)
+
+    def find_members(self, block: Block, sets: SetTable, kind: str, name: str, line: Place | None = None) -> list[int]:
+        """The members of the set that a text names."""
+        owner, own = self.find_owner(block, sets, kind, name, line)
+        return (sets.find(own) if owner is None else find_in_instance(owner, kind, own)) or []
+
+    def name_set_of(self, owner: Instance | None, kind: str, name: str) -> str:
+        """The name that a set gets: INSTANCE.SET if there are several instances. An assembly's set whose name an
+        instance's has gets a prefix."""
+        if owner is not None:
+            return name if len(self.instances) == 1 else f"{owner.name}.{name}"
+        is_theirs = any(
+            find_in_instance(one, kind, own) is not None and self.name_set_of(one, kind, own).upper() == name.upper()
+            for one in self.instances.values()
+            for own in (name, name[len(one.name) + 1 :])
+        )
+        return IN_ASSEMBLY + name if is_theirs else name
 
     def name_sets(self, kind: str) -> dict[str, list[int]]:
-        """All sets by the names that they get: those of instances (INSTANCE.SET if there are several), then the
-        assembly's."""
+        """All sets by the names that they get: those of instances, then the assembly's."""
         named: dict[str, list[int]] = {}
-        taken: set[str] = set()
         for one in self.instances.values():
-            own, offset = (
-                (one.part.node_sets, one.nodes) if kind == "N" else (one.part.element_sets, one.elements)
-            )
-            for name, members in own.items():
-                full = name if len(self.instances) == 1 else f"{one.name}.{name}"
-                named[full] = [member + offset for member in members]
-                taken.add(full.upper())
+            for name, _ in one.find_sets(kind).items():
+                named[self.name_set_of(one, kind, name)] = find_in_instance(one, kind, name) or []
         for name, members in (self.node_sets if kind == "N" else self.element_sets).items():
-            named[IN_ASSEMBLY + name if name.upper() in taken else name] = members
+            named[self.name_set_of(None, kind, name)] = members
         return named
 
 
 def find_in_instance(one: Instance | None, kind: str, name: str) -> list[int] | None:
     """The members of an instance's set, by their numbers in the assembly; None if there is no such set."""
-    if one is None:
+    members = None if one is None else one.find_sets(kind).find(name)
+    if one is None or members is None:
         return None
-    own, offset = (one.part.node_sets, one.nodes) if kind == "N" else (one.part.element_sets, one.elements)
-    members = own.find(name)
-    return None if members is None else [member + offset for member in members]
+    return [member + (one.nodes if kind == "N" else one.elements) for member in members]
 
 
 def find_offset(block: Block, there: Iterable[int], new: Iterable[int]) -> int:

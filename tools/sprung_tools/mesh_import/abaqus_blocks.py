@@ -11,16 +11,10 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple, NoReturn
 
 from sprung_tools.files.errors import InputError
+from sprung_tools.mesh_import.abaqus_keywords import PARAMETERS, find_keyword, find_parameter
 from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER
 from sprung_tools.mesh_import.number_text import parse_real, parse_whole
 
-SPELLINGS = {  # without blanks → as it is spelled here, of what the reader asks for; all other words have no blanks
-    text.replace(" ", ""): text
-    for text in (
-        "ALL NODES", "BEAM GENERAL SECTION", "BEAM SECTION", "END ASSEMBLY", "END INSTANCE", "END PART", "END STEP",
-        "ROTARY INERTIA", "SOLID SECTION", "THICK PIPE", "TWO STEP", "USER ELEMENT",
-    )
-}  # fmt: skip
 END_STEP = re.compile(r"^\s*\*\s*END\s*STEP", re.IGNORECASE | re.MULTILINE)
 QUOTED = re.compile(r"""("[^"]*"|'[^']*')""")
 LABEL = re.compile(r"[A-Za-z_]")  # how a label without quotation marks begins, and no number
@@ -28,19 +22,31 @@ LABEL = re.compile(r"[A-Za-z_]")  # how a label without quotation marks begins, 
 FIRST_BLANK_LINE = {"BEAM SECTION": 1, "BEAM GENERAL SECTION": 1, "INSTANCE": 0}
 
 
+class Place(NamedTuple):
+    """Where a line stands: in the deck, or in a file that it includes."""
+
+    path: str
+    line: int
+
+
 class Block(NamedTuple):
     """A keyword line and the data lines under it."""
 
-    keyword: str  # in capitals, without the asterisk, as it is spelled here
-    parameters: dict[str, str]  # name in capitals → text, "" where it has none
-    data: list[tuple[int, list[str]]]  # line number, fields
-    path: str
-    line: int
+    keyword: str  # in capitals, without the asterisk, written out
+    parameters: dict[str, str]  # name in capitals, written out → text, "" where it has none
+    data: list[tuple[Place, list[str]]]  # where it stands, fields
+    place: Place
     title: str  # the keyword as it is written, in capitals
 
-    def fail(self, what: str, line: int | None = None) -> NoReturn:
+    @property
+    def line(self) -> int:
+        """The number of its keyword line."""
+        return self.place.line
+
+    def fail(self, what: str, place: Place | None = None) -> NoReturn:
         """Throws InputError at a line of the block, its first if none is given."""
-        raise InputError(f"{self.path}:{line or self.line}: error: *{self.keyword}: {what}")
+        path, line = place or self.place
+        raise InputError(f"{path}:{line}: error: *{self.keyword}: {what}")
 
     def describe(self) -> str:
         """The keyword line in one form, with its number."""
@@ -48,11 +54,40 @@ class Block(NamedTuple):
         return f"*{', '.join([self.title, *shown])} (line {self.line})"
 
 
-def read_blocks(path: str, including: tuple[str, ...] = ()) -> list[Block]:
-    """Reads all blocks of a deck; the blocks of an *INCLUDE take its place. InputError if it is not a whole deck.
+def read_blocks(path: str) -> list[Block]:
+    """Reads all blocks of a deck. InputError if it is not a whole one."""
+    blocks: list[Block] = []
+    add_blocks(path, os.path.dirname(path), (), blocks)
+    return blocks
 
-    including: the chain of files that leads to this one by *INCLUDE.
+
+def add_blocks(path: str, folder: str, including: tuple[str, ...], blocks: list[Block]) -> None:
+    """Adds the blocks of a file to those before it. Its lines stand in the place of the *INCLUDE: the first data lines
+    belong to the last block before.
+
+    folder: of the deck; including: the chain of files that leads to this one by *INCLUDE.
     """
+    for number, line in join_lines(read_text(path).splitlines()):
+        place = Place(path, number)
+        if line.startswith("*"):
+            block = read_keyword_line(place, line)
+            if block.keyword == "INCLUDE":
+                chain = (*including, path)
+                add_blocks(find_included(block, folder, chain), folder, chain, blocks)
+            else:
+                blocks.append(block)
+        elif not line and not (blocks and may_be_blank(blocks[-1])):
+            continue
+        elif not blocks:
+            raise InputError(
+                f"{path}:{number}: error: '{line[:40]}' stands before the first keyword: not an Abaqus deck"
+            )
+        else:
+            blocks[-1].data.append((place, [read_field(part) for part in split_fields(line)]))
+
+
+def read_text(path: str) -> str:
+    """The text of a file. InputError if it cannot be read, or ends within a line."""
     try:
         with open(path, encoding="utf-8-sig", errors="replace") as file:
             text = file.read()
@@ -62,21 +97,28 @@ def read_blocks(path: str, including: tuple[str, ...] = ()) -> list[Block]:
     if ends_open and not END_STEP.search(text):
         number = text.count("\n") + 1
         raise InputError(f"{path}:{number}: error: the last line has no line end: the file is truncated")
-    blocks: list[Block] = []
-    for number, line in join_lines(text.splitlines()):
-        if line.startswith("*"):
-            keyword, *parameters = split_fields(line[1:])
-            named = dict(read_parameter(part) for part in parameters if part)
-            blocks.append(Block(spell(keyword), named, [], path, number, " ".join(keyword.upper().split())))
-        elif not line and not (blocks and may_be_blank(blocks[-1])):
-            continue
-        elif not blocks:
-            raise InputError(
-                f"{path}:{number}: error: '{line[:40]}' stands before the first keyword: not an Abaqus deck"
-            )
-        else:
-            blocks[-1].data.append((number, [read_field(part) for part in split_fields(line)]))
-    return [found for block in blocks for found in follow_include(block, (*including, path))]
+    return text
+
+
+def read_keyword_line(place: Place, text: str) -> Block:
+    """A keyword line as a block without data. InputError if an abbreviation is not clear, or a parameter not known."""
+    word, *parts = split_fields(text[1:])
+    title = " ".join(word.upper().split())
+    try:
+        block = Block(find_keyword(word), {}, [], place, title)
+    except ValueError as error:
+        raise InputError(f"{place.path}:{place.line}: error: *{title}: {error}") from error
+    for part in filter(None, parts):
+        name, _, value = part.partition("=")
+        try:
+            name = find_parameter(block.keyword, name.strip())
+        except ValueError as error:
+            block.fail(str(error))
+        if name in block.parameters and block.keyword in PARAMETERS:
+            block.fail(f"has {name} twice")
+        value = value.strip()
+        block.parameters[name] = value.strip("\"'") if name == "INPUT" else remove_blanks(value)
+    return block
 
 
 def split_fields(line: str) -> list[str]:
@@ -84,19 +126,6 @@ def split_fields(line: str) -> list[str]:
     kept = QUOTED.split(line)  # every second one is quoted
     hidden = [part.replace(",", "\0") if place % 2 else part for place, part in enumerate(kept)]
     return [part.strip().replace("\0", ",") for part in "".join(hidden).split(",")]
-
-
-def spell(text: str) -> str:
-    """A keyword, a parameter or the name of a shape in capitals, as it is spelled here whatever blanks it has."""
-    bare = "".join(text.upper().split())
-    return SPELLINGS.get(bare, bare)
-
-
-def read_parameter(part: str) -> tuple[str, str]:
-    """(name, value) of a parameter; a file's name keeps its blanks."""
-    name, _, value = part.partition("=")
-    name, value = spell(name), value.strip()
-    return name, value.strip("\"'") if name == "INPUT" else remove_blanks(value)
 
 
 def read_field(text: str) -> str:
@@ -114,37 +143,41 @@ def may_be_blank(block: Block) -> bool:
     return len(block.data) >= FIRST_BLANK_LINE.get(block.keyword, math.inf)
 
 
-def follow_include(block: Block, including: tuple[str, ...]) -> list[Block]:
-    """The blocks of the file that an *INCLUDE names; any other block alone."""
-    if block.keyword != "INCLUDE":
-        return [block]
+def find_included(block: Block, folder: str, including: tuple[str, ...]) -> str:
+    """The path of the file that an *INCLUDE names: from the deck's folder, as Abaqus and CalculiX take it, or else from
+    that of the file in which it stands."""
     name = block.parameters.get("INPUT", "")
     if not name:
         block.fail("has no file (INPUT=…)")
-    path = os.path.join(os.path.dirname(block.path), name)
+    paths = [os.path.join(place, name) for place in (folder, os.path.dirname(block.place.path))]
+    path = next(filter(os.path.isfile, paths), None)
+    if path is None:
+        block.fail(f"there is no file {' or '.join(dict.fromkeys(paths))}")
     if any(os.path.realpath(path) == os.path.realpath(one) for one in including):
         block.fail(f"'{name}' includes itself")
-    return read_blocks(path, including)
+    return path
 
 
 def join_lines(lines: Iterable[str]) -> Iterator[tuple[int, str]]:
     """Yields (number, text) of the lines that are no comments; the text of a blank line is empty. A keyword line that
-    ends with a comma is joined with the next one."""
+    ends with a comma is joined with the next one, if this one may begin with a parameter."""
     waiting: tuple[int, str] | None = None
     for number, line in enumerate(lines, start=1):
         line = line.strip()
         if line.startswith("**") or (waiting and not line):
             continue
-        if waiting:
+        if waiting and LABEL.match(line):
             number, line = waiting[0], waiting[1] + line
-        if line.startswith("*") and line.endswith(","):
-            waiting = (number, line)
-        else:
-            waiting = None
+        elif waiting:
+            yield waiting
+        waiting = (number, line) if line.startswith("*") and line.endswith(",") else None
+        if not waiting:
             yield number, line
+    if waiting:
+        yield waiting
 
 
-def read_integer(block: Block, line: int, text: str, default: int | None = None) -> int:
+def read_integer(block: Block, line: Place, text: str, default: int | None = None) -> int:
     """A whole number; the default if it is blank. InputError at its line if it is none, too large, or blank without a
     default."""
     if not text and default is not None:
@@ -158,7 +191,7 @@ def read_integer(block: Block, line: int, text: str, default: int | None = None)
     return number
 
 
-def read_real(block: Block, line: int, text: str, before: str = "") -> float:
+def read_real(block: Block, line: Place, text: str, before: str = "") -> float:
     """A finite number; InputError at its line if it is none. before: what stands before it, for the message."""
     try:
         value = parse_real(text)
@@ -190,18 +223,19 @@ def read_reals(block: Block, place: int, most: int, what: str) -> list[float]:
 
 
 def join_rows(
-    block: Block, least: int | None, find_number: Callable[[int, str, bool], int]
-) -> list[tuple[int, list[int]]]:
-    """The elements of a block as (line number, numbers). An element continues in the next line after a comma at the
+    block: Block, least: int | None, find_number: Callable[[Place, str, bool], int]
+) -> list[tuple[Place, list[int]]]:
+    """The elements of a block as (where it stands, numbers). An element continues in the next line after a comma at the
     end; one that has `least` numbers does not.
 
-    find_number: the number that a text in a line names, of the element itself (True) or of one of its nodes.
+    find_number: the number that a text in a line names, which is blank before others; of the element itself (True) or
+    of one of its nodes.
     """
-    rows: list[tuple[int, list[int]]] = []
+    rows: list[tuple[Place, list[int]]] = []
     continues = False
     for line, fields in block.data:
-        texts = [text for text in fields if text]
-        numbers = [find_number(line, text, place == 0 and not continues) for place, text in enumerate(texts)]
+        given = max((number for number, text in enumerate(fields, start=1) if text), default=0)
+        numbers = [find_number(line, text, k == 0 and not continues) for k, text in enumerate(fields[:given])]
         if continues:
             rows[-1][1].extend(numbers)
         else:

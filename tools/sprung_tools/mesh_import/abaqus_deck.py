@@ -15,6 +15,8 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import import abaqus_properties
 from sprung_tools.mesh_import.abaqus_assembly import Assembly
 from sprung_tools.mesh_import.abaqus_blocks import Block, read_blocks
+from sprung_tools.mesh_import.abaqus_keywords import NOT_TAKEN
+from sprung_tools.mesh_import.abaqus_orientation import Orientation
 from sprung_tools.mesh_import.abaqus_part import GENERATING, MESHING, Element, Part, is_line_kind
 from sprung_tools.mesh_import.frame_properties import Material, PointMass
 from sprung_tools.mesh_import.line_mesh import LineMesh, describe_split, pick_members, shorten
@@ -29,7 +31,7 @@ SILENT = {
     "HEADING", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE", "END STEP",
     "USER ELEMENT",
 }  # fmt: skip
-Gift = tuple[Block, list[int], Floats]  # block of a section or a mass, elements, rotation of the instance
+Gift = tuple[Block, str, list[int], Floats]  # of a section or a mass, element set, elements, rotation of the instance
 
 
 def read_abaqus(path: str) -> LineMesh:
@@ -74,9 +76,10 @@ class Deck:
 
     def read(self, block: Block) -> None:
         """Takes in one block."""
+        untaken = [key for key in NOT_TAKEN.get(block.keyword, ()) if key in block.parameters]
+        self.left_behind += [f"{', '.join(untaken)} of {block.describe()}"] if untaken else []
         if block.keyword == "PART":
-            self.part = Part(block.parameters.get("NAME", ""))
-            self.parts[self.part.name.upper()] = self.part
+            self.begin_part(block)
         elif block.keyword == "END PART":
             self.part = None
         elif block.keyword == "INSTANCE":
@@ -94,6 +97,11 @@ class Deck:
             self.materials.read(block)
         elif block.keyword not in SILENT:
             self.left_behind.append(block.describe())
+
+    def begin_part(self, block: Block) -> None:
+        self.part = Part(block.parameters.get("NAME", ""))
+        if self.parts.setdefault(self.part.name.upper(), self.part) is not self.part:
+            block.fail(f"a second part of the name '{self.part.name}'")
 
     def begin_instance(self, block: Block) -> None:
         name = block.parameters.get("PART", "")
@@ -161,17 +169,22 @@ class Deck:
 
     def list_gifts(self) -> Iterator[Gift]:
         """What gives sections and masses to elements, with the elements' numbers in the assembly."""
-        for block, name in self.assembly.used:
-            yield block, self.assembly.find_members(block, self.assembly.element_sets, "E", name), np.eye(3)
-        for one in self.assembly.instances.values():
+        whole = self.assembly
+        for block, name in whole.used:
+            owner, own = whole.find_owner(block, whole.element_sets, "E", name)
+            members = whole.find_members(block, whole.element_sets, "E", name)
+            yield block, whole.name_set_of(owner, "E", own), members, np.eye(3)
+        for one in whole.instances.values():
             for block, name in one.part.used:
                 members = one.part.find_members(block, one.part.element_sets, "E", name)
-                yield block, [member + one.elements for member in members], one.rotation
+                given = [member + one.elements for member in members]
+                yield block, whole.name_set_of(one, "E", name), given, one.rotation
 
     def add_properties(self, mesh: LineMesh, number: dict[int, int], lines_of: dict[int, list[int]]) -> None:
         """Adds the sections of lines and the point masses to the mesh."""
         names: set[str] = set()
-        for block, elements, rotation in self.list_gifts():
+        orientation = Orientation(self.assembly)
+        for block, name, elements, rotation in self.list_gifts():
             if block.keyword in abaqus_properties.MASS_BLOCKS:
                 self.add_masses(mesh, number, block, elements, rotation)
                 continue
@@ -179,7 +192,8 @@ class Deck:
             if not places:
                 self.left_behind.append(block.describe())
                 continue
-            section, width, material = abaqus_properties.read_section(block, self.materials.found)
+            types = {self.assembly.elements[element].kind for element in elements if element in lines_of}
+            section, width, material = abaqus_properties.read_section(block, self.materials.found, types)
             if material is not None:
                 section = section._replace(material=add_material(mesh.materials, material))
             for replaced in np.unique(mesh.section_of[places]):
@@ -188,23 +202,22 @@ class Deck:
                     self.left_behind.append(f"{text} of elements that {block.describe()} has, too")
             mesh.section_of[places] = len(mesh.sections)
             mesh.sections.append(section)
-            names.add(block.parameters.get("ELSET", "").upper())
-            for element in elements:
-                self.add_heights(mesh, number, element, lines_of.get(element, []), rotation @ width)
-        mesh.section_sets = tuple(
-            name for name in mesh.element_sets if {name.upper(), name.upper().rpartition(".")[2]} & names
-        )
+            names.add(name.upper())
+            for element in elements if section.bends else ():
+                for place in lines_of.get(element, ()):
+                    mesh.heights[place] = self.find_height(mesh, number, orientation, element, place, rotation, width)
+        mesh.section_sets = tuple(name for name in mesh.element_sets if name.upper() in names)
+        self.left_behind += orientation.list_remarks()
 
-    def add_heights(
-        self, mesh: LineMesh, number: dict[int, int], element: int, places: Sequence[int], width: Floats
-    ) -> None:
-        """Adds the directions of the heights of an element's lines."""
-        orientation = self.assembly.elements[element].orientation
-        for place in places:
-            begin, end = mesh.positions[mesh.lines[place]]
-            if orientation is not None:
-                width = mesh.positions[number[orientation]] - begin
-            mesh.heights[place] = abaqus_properties.calc_height(end - begin, width)
+    def find_height(
+        self, mesh: LineMesh, number: dict[int, int], orientation: Orientation, element: int, place: int,
+        rotation: Floats, width: Floats,
+    ) -> Floats:  # fmt: skip
+        """The direction of the height of an element's line. width: the 1-direction of the section."""
+        one = self.assembly.elements[element]
+        begin, end = mesh.positions[mesh.lines[place]]
+        given = rotation @ width if one.orientation is None else mesh.positions[number[one.orientation]] - begin
+        return orientation.find_height(element, one, end - begin, given, rotation)
 
     def add_masses(
         self, mesh: LineMesh, number: dict[int, int], block: Block, elements: Sequence[int], rotation: Floats

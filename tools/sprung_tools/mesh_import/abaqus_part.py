@@ -11,14 +11,20 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.mesh_import.abaqus_axes import GLOBAL, read_axes
-from sprung_tools.mesh_import.abaqus_blocks import Block, join_rows, read_integer, read_real
+from sprung_tools.mesh_import.abaqus_blocks import Block, Place, join_rows, read_integer, read_real
 from sprung_tools.mesh_import.line_mesh import MOST_MEMBERS
 
 TWO_NODES = re.compile(r"(B2[13]H?|B3[13](R|H|OS|OSH)?|T[23]D2[HTE]*|PIPE[23]1H?|FRAME[23]D|U1)$")
 THREE_NODES = re.compile(r"(B[23]2(R|H|OS|OSH)?|T[23]D3[HTE]*|PIPE[23]2H?)$")
+PLANAR = re.compile(r"(B2[123]H?|PIPE2[12]H?)$")
+IN_NAME = re.compile(r"(?:C3D|CAX|CP[ES]|M3D|R3D|SC?)(\d+)")  # solids, membranes, rigid bodies, shells: nodes
+NODES = {  # of elements of other types, which may go on in the next line until they have as many
+    "CONN2D2": 2, "CONN3D2": 2, "DASHPOT1": 1, "DASHPOT2": 2, "DASHPOTA": 2, "GAPUNI": 2, "HEATCAP": 1, "JOINTC": 2,
+    "MASS": 1, "ROTARYI": 1, "SPRING1": 1, "SPRING2": 2, "SPRINGA": 2,
+}  # fmt: skip
 GENERATING = {"NCOPY", "NMAP", "ELCOPY"}
 GENERATORS = {"NGEN", "NFILL", "ELGEN"}
-MESHING = {"NODE", "ELEMENT", "NSET", "ELSET", "SYSTEM"} | GENERATORS
+MESHING = {"NODE", "ELEMENT", "NSET", "ELSET", "SYSTEM", "NORMAL"} | GENERATORS
 SAME_PLACE = 1e-9  # relative to the length of the line on which nodes are generated
 
 
@@ -29,7 +35,7 @@ class Element(NamedTuple):
     nodes: list[int]
     orientation: int | None
     block: Block
-    line: int
+    line: Place
 
     @property
     def is_line(self) -> bool:
@@ -40,6 +46,14 @@ class Element(NamedTuple):
 def is_line_kind(kind: str) -> bool:
     """Whether elements of a type are lines."""
     return bool(TWO_NODES.match(kind) or THREE_NODES.match(kind))
+
+
+def count_nodes(kind: str) -> int | None:
+    """The number of nodes that elements of a type have, without orientation nodes; None if it is not known."""
+    if is_line_kind(kind):
+        return 3 if THREE_NODES.match(kind) else 2
+    found = IN_NAME.match(kind)
+    return int(found[1]) if found else NODES.get(kind)
 
 
 class SetTable:
@@ -72,6 +86,8 @@ class Part:
         self.node_sets = SetTable()
         self.element_sets = SetTable()
         self.axes = GLOBAL  # of the nodes that are read
+        # What has normals of its own, which turn the sections of beams: nodes and elements.
+        self.normals: dict[str, set[int]] = {"N": set(), "E": set()}
         self.used: list[tuple[Block, str]] = []  # blocks that give something to an element set, and its name
 
     def read(self, block: Block) -> None:
@@ -81,11 +97,11 @@ class Part:
         readers = {
             "NODE": self.read_nodes, "ELEMENT": self.read_elements, "NSET": self.read_node_set,
             "ELSET": self.read_element_set, "SYSTEM": self.read_system, "NGEN": self.generate_nodes,
-            "NFILL": self.fill_nodes, "ELGEN": self.generate_elements,
+            "NFILL": self.fill_nodes, "ELGEN": self.generate_elements, "NORMAL": self.read_normals,
         }  # fmt: skip
         readers[block.keyword](block)
 
-    def add_node(self, block: Block, line: int, node: int, place: tuple[float, float, float]) -> None:
+    def add_node(self, block: Block, line: Place, node: int, place: tuple[float, float, float]) -> None:
         """Adds a node. InputError if there is another one of its number."""
         if self.nodes.setdefault(node, place) != place:
             block.fail(f"node {node} is defined twice", line)
@@ -98,8 +114,10 @@ class Part:
         for line, fields in block.data:
             node = self.read_own_number(block, line, fields[0], "N")
             place = [read_real(block, line, text) if text else 0.0 for text in fields[1:4]]
-            if not any(fields[1:4]):
+            if len(fields) == 1:
                 block.fail(f"node {node} has no coordinates: truncated?", line)
+            if any([read_real(block, line, text) for text in fields[4:7] if text]):
+                self.normals["N"].add(node)
             if node in ids[-1:]:
                 block.fail(f"node {node} is defined twice", line)
             x, y, z = (*place, 0.0, 0.0)[:3]
@@ -113,21 +131,34 @@ class Part:
     def read_system(self, block: Block) -> None:
         self.axes = read_axes(block)
 
+    def read_normals(self, block: Block) -> None:
+        """*NORMAL: an element or a set of them, a node or a set of them, and the normal."""
+        if block.parameters.get("TYPE", "ELEMENT").upper().startswith("C"):
+            return  # of surfaces that touch
+        for line, fields in block.data:
+            if fields[0]:
+                self.normals["E"].update(self.find_named(block, self.element_sets, "E", fields[0], line))
+
     def read_elements(self, block: Block) -> None:
         kind = block.parameters.get("TYPE", "").upper()
-        count = 3 if THREE_NODES.match(kind) else 2
-        is_line = is_line_kind(kind)
+        count, is_line = count_nodes(kind), is_line_kind(kind)
 
-        def find_number(line: int, text: str, is_own: bool) -> int:
-            return self.read_own_number(block, line, text, "E") if is_own else self.find_number(block, line, text, "N")
+        def find_number(line: Place, text: str, is_own: bool) -> int:
+            if is_own:
+                return self.read_own_number(block, line, text, "E")
+            if not text and not is_line:
+                return 0  # a connector's node on the ground
+            return self.find_number(block, line, text, "N")
 
-        rows = join_rows(block, count + 1 if is_line else None, find_number)
+        rows = join_rows(block, None if count is None else count + 1, find_number)
         for line, (element, *nodes) in rows:
-            if is_line and len(nodes) not in (count, count + 1):
-                found = f"a {kind} has {len(nodes)} nodes, expected {count} (and an orientation node)"
-                block.fail(f"{found}: truncated?", line)
-            orientation = nodes[count] if is_line and len(nodes) > count else None
-            self.add_element(element, Element(kind, nodes[:count] if is_line else nodes, orientation, block, line))
+            orientation = None
+            if is_line and count is not None:
+                if len(nodes) not in (count, count + 1):
+                    found = f"a {kind} has {len(nodes)} nodes, expected {count} (and an orientation node)"
+                    block.fail(f"{found}: truncated?", line)
+                nodes, orientation = nodes[:count], (*nodes[count:], None)[0]
+            self.add_element(element, Element(kind, [node for node in nodes if node], orientation, block, line))
         if block.parameters.get("ELSET"):
             self.element_sets.add(block.parameters["ELSET"], [row[0] for _, row in rows])
 
@@ -171,25 +202,27 @@ class Part:
                 members += generated
                 continue
             for text in filter(None, fields):
-                is_number = text.rpartition(".")[2].lstrip("+-").isdecimal()
-                if is_number:
-                    members.append(self.find_number(block, line, text, kind))
-                else:
-                    members += self.find_members(block, sets, kind, text, line)
+                members += self.find_named(block, sets, kind, text, line)
         return members
 
-    def read_own_number(self, block: Block, line: int, text: str, kind: str) -> int:
+    def find_named(self, block: Block, sets: SetTable, kind: str, text: str, line: Place) -> list[int]:
+        """What a text names: a node or an element by its number, or those of a set."""
+        if text.rpartition(".")[2].lstrip("+-").isdecimal():
+            return [self.find_number(block, line, text, kind)]
+        return self.find_members(block, sets, kind, text, line)
+
+    def read_own_number(self, block: Block, line: Place, text: str, kind: str) -> int:
         """The number of a node (kind: N) or an element (E) of the part."""
         number = read_integer(block, line, text)
         if number < 1:
             block.fail("numbers begin at 1", line)
         return number
 
-    def find_number(self, block: Block, line: int, text: str, kind: str) -> int:
+    def find_number(self, block: Block, line: Place, text: str, kind: str) -> int:
         """The number that a text names. kind: N, E."""
         return self.read_own_number(block, line, text, kind)
 
-    def find_members(self, block: Block, sets: SetTable, kind: str, name: str, line: int | None = None) -> list[int]:
+    def find_members(self, block: Block, sets: SetTable, kind: str, name: str, line: Place | None = None) -> list[int]:
         """The members of the set that a text names. InputError if it is not there."""
         found = sets.find(name)
         if found is None:
@@ -209,7 +242,7 @@ class Part:
         if block.parameters.get("NSET"):
             self.node_sets.add(block.parameters["NSET"], ids)
 
-    def fill_between(self, block: Block, line: int, first: int, last: int, step: int) -> list[int]:
+    def fill_between(self, block: Block, line: Place, first: int, last: int, step: int) -> list[int]:
         """Adds equally spaced nodes between two. Returns the numbers of all, the ends included. InputError if a node of
         such a number is elsewhere."""
         for end in (first, last):
@@ -261,6 +294,8 @@ class Part:
             made = {master: self.elements[master]}
             for place in range(0, len(rest), 3):
                 number, nodes, elements = (*rest[place : place + 3], 1, 1)[:3]
+                if number > 1 and (nodes == 0 or elements == 0):
+                    block.fail(f"generates {number} elements by an increment of 0", line)
                 if not 1 <= number * len(made) <= MOST_MEMBERS:
                     block.fail(f"generates {number} elements in a row", line)
                 row = made
@@ -269,6 +304,10 @@ class Part:
                     for k in range(number)
                     for one, element in row.items()
                 }
+                if len(made) < number * len(row):
+                    block.fail("generates an element twice", line)
+            if min(made) < 1:
+                block.fail(f"generates element {min(made)}, but numbers begin at 1", line)
             for one, element in made.items():
                 if one != master:
                     self.add_element(one, element)

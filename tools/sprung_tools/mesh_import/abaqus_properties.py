@@ -6,12 +6,13 @@ Source: Abaqus 2016, Keywords Reference Guide; Analysis User's Guide, "Beam cros
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.mesh_import.abaqus_blocks import Block, check_rows, read_real, read_reals, spell
+from sprung_tools.mesh_import.abaqus_blocks import Block, check_rows, read_real, read_reals
+from sprung_tools.mesh_import.abaqus_keywords import find_words
 from sprung_tools.mesh_import.frame_properties import Material, Section, Shape, are_possible
 from sprung_tools.mesh_import.section_shapes import (
     make_angle,
@@ -54,6 +55,19 @@ SHAPES: dict[str, tuple[int, Callable[..., Shape]]] = {
 }  # fmt: skip
 
 
+# The types of sections that are told from each other by their beginnings.
+KINDS = (*SHAPES, "ARBITRARY", "ELBOW", "GENERAL", "LINEAR", "MESHED", "NONLINEAR GENERAL")
+
+
+def find_kind(block: Block) -> str:
+    """The type of a section. InputError if it gives none and has no default."""
+    text = block.parameters.get("SECTION", "GENERAL" if block.keyword == "BEAM GENERAL SECTION" else "")
+    if not text:
+        block.fail("has no SECTION")
+    found = find_words(text, KINDS)
+    return found[0] if len(found) == 1 else text.upper()
+
+
 def lower(shape: Shape, height: float) -> Shape:
     """The shape with its origin higher by a height."""
     return shape._replace(h=shape.h - height)
@@ -67,10 +81,12 @@ def read_row(block: Block, place: int) -> list[float]:
     return [read_real(block, line, text) if text else 0.0 for text in fields]
 
 
-def read_section(block: Block, materials: Mapping[str, Material]) -> tuple[Section, Floats, Material | None]:
+def read_section(
+    block: Block, materials: Mapping[str, Material], types: Container[str] = ()
+) -> tuple[Section, Floats, Material | None]:
     """Reads a section. Returns (section, its 1-direction [3], the material if the section gives one itself).
 
-    materials: name in capitals → material of the deck.
+    materials: name in capitals → material of the deck; types: of the section's elements.
     """
     check_numbers(block)
     if block.keyword == "SOLID SECTION":
@@ -78,13 +94,18 @@ def read_section(block: Block, materials: Mapping[str, Material]) -> tuple[Secti
         shape = Shape(area, 0.0, 0.0) if area > 0.0 else None
         section = Section(describe(block), block.parameters.get("MATERIAL", "").upper(), shape, False)
         return section, np.array(DEFAULT_WIDTH), None
-    kind = spell(block.parameters.get("SECTION", "GENERAL"))
+    kind = find_kind(block)
     place = count_shape_lines(block, kind)  # of the 1-direction
     dimensions = read_row(block, 0) if kind != "MESHED" else []
     shape, remark = read_walls(block, place) if kind == "ARBITRARY" else make_shape(block, kind, dimensions)
     if kind != "MESHED":
         check_lines_behind(block, place)
     left_out = [remark] if remark else []
+    if "NODAL THICKNESS" in block.parameters:
+        shape = None
+        left_out.append("its dimensions at the nodes, by *NODAL THICKNESS")
+    if kind == "GENERAL" and "U1" in types and any(dimensions[4:5]):
+        left_out.append(f"the shear coefficient of its elements U1, {dimensions[4]:g}")
     left_out += [f"its {key}" for key in ("OFFSET1", "OFFSET2") if read_parameter(block, key)]
     left_out += ["its taper: the section at the first end is taken"] if "TAPER" in block.parameters else []
     if read_parameter(block, "POISSON"):
@@ -210,7 +231,7 @@ def read_own_material(
 def read_parameter(block: Block, key: str) -> float | None:
     """A parameter's number; None if it is not there. InputError if it is none."""
     text = block.parameters.get(key)
-    return None if text is None else read_real(block, block.line, text, f"{key}=")
+    return None if text is None else read_real(block, block.place, text, f"{key}=")
 
 
 def check_numbers(block: Block) -> None:
@@ -237,7 +258,8 @@ class Materials:
             return
         row = read_row(block, 0)
         kind = block.parameters.get("TYPE", "ISOTROPIC").upper()
-        if self._current not in self.found or not row or (block.keyword == "ELASTIC" and not kind.startswith("ISO")):
+        is_other = "PORE FLUID" in block.parameters or not "ISOTROPIC".startswith(kind)
+        if self._current not in self.found or not row or is_other:
             self.left_behind.append(block.describe())
             return
         material = self.found[self._current]
@@ -259,7 +281,7 @@ def read_mass(block: Block) -> tuple[float, Floats | None, str]:
     an empty text). InputError if it has no number, or more than it can have."""
     check_numbers(block)
     kind = block.parameters.get("TYPE", "ISOTROPIC").upper()
-    is_one_number = block.keyword == "MASS" and kind.startswith("ISO")
+    is_one_number = block.keyword == "MASS" and "ISOTROPIC".startswith(kind)
     what = "its mass" if block.keyword == "MASS" else "its moments of inertia"
     row = read_reals(block, 0, 1 if is_one_number else 6, what)
     if not row:
