@@ -17,10 +17,10 @@ import numpy as np
 from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.carried_masses import Carriers, merge_masses
+from sprung_tools.mesh_import.equal_sections import find_difference
 from sprung_tools.mesh_import.frame_properties import PointMass, Section
 from sprung_tools.mesh_import.line_mesh import LineMesh, shorten
 from sprung_tools.mesh_import.place_index import PlaceIndex
-from sprung_tools.mesh_import.plane_section import calc_in_plane
 
 SAME_PLACE = 1e-6  # share of the frame's extent within which mirror images, and projections of nodes, coincide
 SAME_MOMENT = 1e-9  # relative
@@ -70,23 +70,10 @@ class Mirror:
             if len(images) != len(own):
                 self.fail(line, "has no mirror image")
             partner[line] = images[own.index(line)]
-            self.check_same(line, int(partner[line]))
+            difference = find_difference(self.mesh, line, int(partner[line]), self.plane)
+            if difference:
+                self.fail(line, f"and its mirror image {self.mesh.line_ids[partner[line]]} {difference}")
         return partner
-
-    def check_same(self, line: int, other: int) -> None:
-        """Throws InputError if the mirror image of a line has another section, or is turned in another way."""
-        mesh = self.mesh
-        sections = [mesh.sections[mesh.section_of[one]] if mesh.section_of[one] >= 0 else None for one in (line, other)]
-        one, two = (section._replace(text="") if section else None for section in sections)
-        if one != two:
-            self.fail(line, f"and its mirror image {mesh.line_ids[other]} have different sections")
-        if one is None or one.shape is None or not one.bends:
-            return
-        pair = [line, other]
-        ends = mesh.positions[mesh.lines[pair]]
-        found = calc_in_plane(one.shape, ends[:, 1] - ends[:, 0], mesh.heights[pair], self.plane)
-        if found is not None and np.ptp(found[0]) > SAME_MOMENT * np.max(found[0]):
-            self.fail(line, f"and its mirror image {mesh.line_ids[other]} are turned in different ways")
 
     def fail(self, line: int, what: str) -> NoReturn:
         """Throws InputError that names a line."""
@@ -133,18 +120,21 @@ def unite_rails(mesh: LineMesh, plane: str) -> LineMesh:
     positions = mesh.positions.copy()
     positions[:, mirror.normal] = mirror.middle
     sets, set_remarks = map_sets(mesh, mirror, kinds, place)
+    stays = united == np.arange(len(united))  # the others are one with these
+    node = np.cumsum(stays)[united] - 1
     return dataclasses.replace(
         mesh,
-        positions=positions,
+        node_ids=mesh.node_ids[stays],
+        positions=positions[stays],
         line_ids=mesh.line_ids[kept],
-        lines=united[mesh.lines[kept]],
+        lines=node[mesh.lines[kept]],
         element_sets=sets,
-        node_sets={name: np.unique(united[nodes]) for name, nodes in mesh.node_sets.items()},
+        node_sets={name: np.unique(node[nodes]) for name, nodes in mesh.node_sets.items()},
         section_sets=tuple(name for name in sets if name.removesuffix(IN_MIDDLE) in mesh.section_sets),
         section_of=mesh.section_of[kept],
         heights=mesh.heights[kept],
         counts=counts,
-        point_masses=point_masses,
+        point_masses=[one._replace(node=int(node[one.node])) for one in point_masses],
         left_behind=[
             *describe(mirror, kinds), *carriers.describe(), *list_one_sided(mirror), *mass_remarks, *set_remarks,
             *mesh.left_behind,
@@ -223,11 +213,11 @@ def list_one_sided(mirror: Mirror) -> list[str]:
 def map_sets(
     mesh: LineMesh, mirror: Mirror, kinds: Kinds, place: dict[int, int]
 ) -> tuple[dict[str, Integers], list[str]]:
-    """Returns (the element sets with the united lines, remarks). place: kept line → its new number. A set with single
-    and double lines is divided."""
+    """Returns (the element sets with the united lines, those with kept lines first; remarks). place: kept line → its
+    new number. A set with single and double lines is divided."""
     sets: dict[str, Integers] = {}
     remarks: list[str] = []
-    for name, members in mesh.element_sets.items():
+    for name, members in sorted(mesh.element_sets.items(), key=lambda item: not np.any(kinds.kept[item[1]])):
         rails = members[kinds.rail[members]]
         double = {place[int(line if kinds.kept[line] else mirror.partner[line])] for line in rails}
         single = {place[line] for line in members.tolist() if kinds.middle[line]}

@@ -73,7 +73,7 @@ def drop_unused_nodes(mesh: LineMesh) -> tuple[LineMesh, list[str]]:
         sets[name] = kept[kept >= 0]
     smaller = LineMesh(
         mesh.path, mesh.format, mesh.node_ids[used], mesh.positions[used], mesh.line_ids, number[mesh.lines],
-        mesh.element_sets, sets, mesh.section_sets, mesh.left_behind,
+        mesh.element_sets, sets, mesh.section_sets, mesh.left_behind, counts=mesh.counts,
     )  # fmt: skip
     return smaller, [f"nodes that no line uses: {shorten(mesh.node_ids[unused])}"]
 
@@ -139,7 +139,8 @@ def choose_curves(mesh: LineMesh, wanted_sets: Sequence[str], remarks: list[str]
     """Divides the lines into groups: name → line numbers, each line once. Adds a remark on each set that is left out.
 
     Sets that do not overlap are all kept. Where sets overlap, those of wanted_sets are kept, or without these the sets
-    to which the source gives sections; then the others that overlap none of the kept ones.
+    to which the source gives sections; then the others that overlap none of the kept ones. Of the sets of two
+    united rails the first ones are kept.
     """
     sets = {name: np.unique(lines) for name, lines in mesh.element_sets.items() if len(lines) > 0}
     for name in wanted_sets:
@@ -151,6 +152,8 @@ def choose_curves(mesh: LineMesh, wanted_sets: Sequence[str], remarks: list[str]
     taken = np.full(mesh.line_ids.size, None)
     curves = {}
     for name in first:
+        if not wanted_sets and adds_nothing(mesh, name, sets[name], taken):
+            continue
         check_overlap(mesh, name, sets[name], taken)
         taken[sets[name]] = name
         curves[name] = sets[name]
@@ -159,7 +162,7 @@ def choose_curves(mesh: LineMesh, wanted_sets: Sequence[str], remarks: list[str]
             continue
         if wanted_sets:
             remarks.append(f"element set '{name}' ({lines.size} lines): not asked for")
-        elif first and any(taken[line] is not None for line in lines):
+        elif adds_nothing(mesh, name, lines, taken) or (first and any(taken[lines] != None)):  # noqa: E711
             others = sorted({taken[line] for line in lines} - {None})
             remarks.append(
                 f"element set '{name}' ({lines.size} lines): overlaps '{shorten(others)}', which has the section"
@@ -177,6 +180,15 @@ def choose_curves(mesh: LineMesh, wanted_sets: Sequence[str], remarks: list[str]
         if sets:
             remarks.append(f"elements in no set, now in '{name}': {shorten(mesh.line_ids[rest])}")
     return curves
+
+
+def adds_nothing(mesh: LineMesh, name: str, lines: Integers, taken: NDArray[np.object_]) -> bool:
+    """Whether a set's lines, united with others, are those of one of their sets, or of several if all of them have
+    sections. taken: each line's set so far, None without one [E]."""
+    found = set(taken[lines])
+    if None in found or np.any(mesh.counts[lines] == 1):
+        return False
+    return name in mesh.section_sets or any(np.count_nonzero(taken == one) == lines.size for one in found)
 
 
 def check_overlap(mesh: LineMesh, name: str, lines: Integers, taken: NDArray[np.object_]) -> None:
