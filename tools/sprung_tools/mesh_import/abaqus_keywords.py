@@ -1,7 +1,7 @@
 """The keywords and parameters of Abaqus and CalculiX decks that are read, and their abbreviations.
 
-"Keywords, parameters, and, in most cases, parameter values need not be spelled out completely", if the characters that
-are given tell them from others. Source: Abaqus 2016, Analysis User's Guide, "Input syntax rules"; Keywords Reference
+Keywords, parameters and most of their values may be cut short, as long as what is left is the beginning of one alone.
+Source: Abaqus 2016, Analysis User's Guide, "Input syntax rules"; Keywords Reference
 Guide; CalculiX 2.20, User's Manual.
 """
 
