@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "dynamics/mode_choice/forcing_spectrum.h"
 #include "dynamics/response/linear_outputs.h"
 #include "dynamics/response/random_linearisation.h"
-#include "dynamics/mode_choice/forcing_spectrum.h"
 
 namespace sprung::dynamics {
 

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/response/linear_outputs.h"
-#include "dynamics/response/random_linearisation.h"
 #include "dynamics/output/response_report.h"
 #include "dynamics/output/response_writer.h"
 #include "dynamics/preparation/start_state.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
 #include "dynamics/program/response_warnings.h"
+#include "dynamics/response/linear_outputs.h"
+#include "dynamics/response/random_linearisation.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/hdf5/foreign_file.h"
 #include "tools/support/terminal/print.h"

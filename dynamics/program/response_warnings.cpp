@@ -9,11 +9,11 @@
 #include <variant>
 
 #include "dynamics/functions/mean_slope.h"
-#include "dynamics/response/held_modes_effect.h"
 #include "dynamics/output/response_report.h"
 #include "dynamics/output/resting_forces.h"
 #include "dynamics/preparation/full_model.h"
 #include "dynamics/preparation/start_state.h"
+#include "dynamics/response/held_modes_effect.h"
 
 namespace sprung::dynamics {
 

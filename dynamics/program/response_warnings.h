@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "dynamics/response/linear_vehicle.h"
 #include "dynamics/output/response_result.h"
 #include "dynamics/preparation/prepared_run.h"
+#include "dynamics/response/linear_vehicle.h"
 
 namespace sprung::dynamics {
 
