@@ -6,6 +6,7 @@ import json
 import os
 import re
 import shutil
+import tomllib
 import unittest
 
 import numpy as np
@@ -257,13 +258,56 @@ values = [0.002, 0.008]
         self.assertGreater(len(pieces), 1)
         for piece in pieces:
             with self.subTest(piece):
-                vehicle = (TEMPLATES / "half_car.toml").read_text(encoding="utf-8") + "\n" + piece
-                (self.folder / "mine.toml").write_text(vehicle, encoding="utf-8")
-                process = run_program(
-                    [os.environ["SPRUNG_DYNAMICS"], "run", "dynamics/models/templates/half_car_run.toml", "--set",
-                     "vehicle=../../../mine.toml", "--set", "duration=0.5", "--quiet"], cwd=self.folder,
-                )  # fmt: skip
-                self.assertEqual(process.returncode, 0, process.stderr)
+                self.run_with_piece(piece, "duration=0.5")
+
+    def run_with_piece(self, piece, *settings):
+        """Runs the half car with a piece of TOML that the guide adds to it; the results are in mine.h5 of the test's
+        folder. Returns the vehicle."""
+        vehicle = (TEMPLATES / "half_car.toml").read_text(encoding="utf-8") + "\n" + piece
+        (self.folder / "mine.toml").write_text(vehicle, encoding="utf-8")
+        shutil.copy(TEMPLATES / "half_car_run.toml", self.folder / "mine_run.toml")
+        process = run_program(
+            [os.environ["SPRUNG_DYNAMICS"], "run", "mine_run.toml", "--quiet", "-o", "mine.h5",
+             *(word for one in ("vehicle=mine.toml", *settings) for word in ("--set", one))], cwd=self.folder,
+        )  # fmt: skip
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return tomllib.loads(vehicle)
+
+    def test_the_brakes_of_the_guide_load_the_front_by_the_balance_of_moments(self):
+        # A force at the body's centre of mass, which stood there, took 33 N from the front.
+        (piece,) = (one for one in re.findall(r"```toml\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
+                    if "brake" in one)  # fmt: skip
+        vehicle = self.run_with_piece(piece, 'road={ shape = "flat" }', "duration=3.0")
+        bodies = vehicle["bodies"]
+        mass = sum(body["mass"] for body in bodies.values())
+        height = sum(body["mass"] * body["position"][1] for body in bodies.values()) / mass
+        wheelbase = bodies["front_axle"]["position"][0] - bodies["rear_axle"]["position"][0]
+        with open_results(self.folder / "mine.h5") as results:
+            acceleration = results.series("bodies/body/acceleration.x")[0][-1]
+            self.assertAlmostEqual(acceleration, -3000.0 / mass, delta=1e-3)
+            moved = -mass * acceleration * height / wheelbase
+            self.assertAlmostEqual(moved, 579.0, delta=1.0)  # as the guide says
+            # As the body pitches, its centre of mass moves over the axles, which slide along its own axis.
+            angle = results.series("bodies/body/position.angle")[0]
+            arm = bodies["body"]["position"][1] - bodies["front_axle"]["position"][1]
+            moved += bodies["body"]["mass"] * 9.80665 * arm * (angle[0] - angle[-1]) / wheelbase
+            for tyre, sign in (("front_tyre", 1.0), ("rear_tyre", -1.0)):
+                load = results.series(f"forces/{tyre}/force")[0]
+                self.assertAlmostEqual(sign * (load[-1] - load[0]), moved, delta=0.005 * moved)
+
+    def test_springs_of_one_free_length_share_the_load_of_a_group_as_the_guide_says(self):
+        def find_loads(*settings):
+            process = run_program(
+                [os.environ["SPRUNG_DYNAMICS"], "equilibrium", TEMPLATES / "semitrailer_run.toml", "--superelements",
+                 self.made, "--json", *(word for one in settings for word in ("--set", one))],
+            )  # fmt: skip
+            self.assertEqual(process.returncode, 0, process.stderr)
+            forces = json.loads(process.stdout)["forces"]
+            return [round(1e-3 * forces[f"tyre_{k}"]["force"]) for k in (1, 2, 3)]
+
+        self.assertEqual(find_loads(), [67, 69, 74])
+        equal = (f"vehicle.forces.suspension_{k}.free_length=0.925" for k in (1, 2, 3))
+        self.assertEqual(find_loads(*equal), [70, 70, 71])
 
 
 if __name__ == "__main__":
