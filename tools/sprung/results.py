@@ -21,7 +21,7 @@ from sprung_tools.runs.measures import (
     list_linear_objects,
     list_objects,
 )
-from sprung_tools.runs.ride_assessment import find_weighting_gap, list_band_remarks, list_remarks
+from sprung_tools.runs.ride_assessment import find_weighting_gap, list_remarks
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.runs.section_stress import list_stress_remarks, list_stressed_bodies
@@ -156,7 +156,7 @@ class Results:
         points, start, end: as of measures()."""
         window = read_window(self._file, start, end)
         judged = find_points(self._file, list_names(points))
-        return [*list_remarks(self._file, judged, window), *list_band_remarks(self._file, judged, window),
+        return [*list_remarks(self._file, judged, window),
                 *list_stress_remarks(self._file, list_stressed_bodies(self._file))]  # fmt: skip
 
     def measure(self, name: str) -> float:

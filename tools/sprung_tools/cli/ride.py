@@ -5,8 +5,8 @@ moment of each flexible body.
 The span of time is that of the run file's [statistics], or the one given. Vibration is vertical, in m/s², the dose
 (VDV) in m/s^1.75; MTVV is the largest running r.m.s. of Wk over 1 s. Beside it stand the weighted r.m.s. fore and aft
 (Wd), of the pitch (We, rad/s²), and the total of all three; and the power that a person absorbs, W. Before the span,
-vibration of the run counts in these values as a person still feels it, and in the r.m.s. in third-octave bands, which
---json gives, as the filters still hold it. Travel is from static equilibrium, compression is positive. Of a run that
+vibration of the run counts in these values as a person still feels it. --json also gives the r.m.s. in third-octave
+bands. Travel is from static equilibrium, compression is positive. Of a run that
 starts as given, in which no equilibrium was sought, static loads and deflections are mean values over the span; of one
 that continues another run they are not known. Loads are those of all parallel members together. A tyre is also without
 load where it reaches the road but rises faster than it springs back. A moment is positive where it stretches the side
@@ -39,7 +39,7 @@ from sprung_tools.runs.measures import (
     list_objects,
     pack_measures,
 )
-from sprung_tools.runs.ride_assessment import list_band_remarks, list_remarks, point_name
+from sprung_tools.runs.ride_assessment import list_remarks, point_name
 from sprung_tools.runs.ride_measures import (
     calc_contact,
     calc_travel,
@@ -170,7 +170,6 @@ def make_json(
         judged = find_points(run.results, points)
         packed.append({"label": run.label, "file": run.results.path, **describe_run(run.results, window),
                        "remarks": list_remarks(run.results, judged, window)
-                       + list_band_remarks(run.results, judged, window)
                        + list_moment_remarks(run.results, superelements)
                        + list_stress_remarks(run.results, list_stressed_bodies(run.results)),
                        "measures": pack_measures(calc_measures(objects))})  # fmt: skip

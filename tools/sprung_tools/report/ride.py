@@ -15,7 +15,6 @@ from sprung_tools.runs.ride_assessment import (
     calc_bands,
     calc_vibration,
     describe_comfort,
-    list_band_remarks,
     list_remarks,
 )
 from sprung_tools.runs.ride_measures import (
@@ -78,10 +77,8 @@ def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: s
         contacts = [{"name": name, **calc_contact(results, name, window)._asdict()} for name in tyres]
     except InputError as error:  # unequally spaced samples; the rest of the page does not need equal ones
         problem = problem or str(error)
-    judged = list(vibrations)
-    remarks = list_remarks(results, judged, window) + list_band_remarks(results, judged, window)
-    return {"problem": problem, "remarks": remarks, "points": points, "travel": travels,
-            "tyres": contacts}  # fmt: skip
+    return {"problem": problem, "remarks": list_remarks(results, list(vibrations), window), "points": points,
+            "travel": travels, "tyres": contacts}  # fmt: skip
 
 
 def clean(values: Iterable[float | None]) -> list[float | None]:

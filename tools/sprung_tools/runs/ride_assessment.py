@@ -38,7 +38,7 @@ from sprung_tools.signals.ride_weighting import (
 )
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
-from sprung_tools.signals.third_octaves import MEMORY_PERIODS, NOMINAL, calc_third_octaves
+from sprung_tools.signals.third_octaves import NOMINAL, calc_third_octaves
 
 PITCH = 0.4  # m/rad
 # Annex C, C.2.3: from, up to [m/s²], words. The ranges overlap.
@@ -145,19 +145,6 @@ def part_coarse(results: ResultsFile, points: Sequence[str]) -> tuple[list[str],
     ]
 
 
-def list_band_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:
-    """Of a run that continues another one, which bands have filters that lack the vibration before the run."""
-    known = window[0] - float(results.time[0])  # s before the span
-    lacking = [centre for centre in NOMINAL if MEMORY_PERIODS / centre > known + ROUNDING]
-    if not part_coarse(results, points)[0] or not results.is_continued or not lacking:
-        return []
-    return [
-        f"the run continues another one from {results.time[0]:.6g} s on, and its vibration before counts as none: "
-        f"third-octave bands up to {lacking[-1]:g} Hz hold where the span (--from) begins {MEMORY_PERIODS:g}/f s "
-        f"later, f in Hz, when {100.0 * LEFT:g} % of it is left in their filters"
-    ]
-
-
 def read_pitch_acceleration(results: ResultsFile, point: str) -> Floats:
     """The angular acceleration [n], rad/s², of the body at a point. point: as calc_vibration() takes it."""
     group, name, *_ = point.split("/")
@@ -206,9 +193,8 @@ def calc_total(fore_aft: float, vertical: float, pitch: float) -> float:
 
 
 def calc_bands(results: ResultsFile, point: str, window: Span) -> list[float | None]:
-    """The r.m.s. of a point's vertical acceleration in the third-octave bands over a span of time, m/s² [23], of what
-    the filters make of the whole run; None for bands of which the samples are too few: as for the weightings,
-    SAMPLES_PER_PERIOD are needed."""
+    """The r.m.s. of a point's vertical acceleration in the third-octave bands over a span of time, m/s² [23]; None for
+    bands of which the samples are too few: as for the weightings, SAMPLES_PER_PERIOD are needed."""
     step = sampling_step(results)
     acceleration = read_acceleration(results, point, "y")
     found = calc_third_octaves(acceleration, step, samples_between(results, *window))

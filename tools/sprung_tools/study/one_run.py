@@ -37,7 +37,7 @@ from sprung_tools.runs.measures import (
     list_linear_objects,
     list_objects,
 )
-from sprung_tools.runs.ride_assessment import list_band_remarks, list_remarks
+from sprung_tools.runs.ride_assessment import list_remarks
 from sprung_tools.runs.ride_measures import list_row_remarks, list_static_remarks, read_window
 from sprung_tools.runs.section_stress import list_stress_remarks, list_stressed_bodies
 from sprung_tools.runs.ride_of_response import list_frequency_remarks
@@ -207,8 +207,7 @@ def list_remarks_of(results: ResultsFile, wanted: Sequence[str], window: Span) -
     of_points = list_remarks(results, points, window, with_mtvv=with_mtvv) if points else []
     remarks = [one for one in of_points if one not in of_forces]
     remarks += of_forces if is_wanted("suspensions") or is_wanted("tyres") else []
-    remarks += list_stress_remarks(results, list_stressed_bodies(results)) if is_wanted("stresses") else []
-    return remarks + (list_band_remarks(results, points, window) if is_wanted("bands") else [])
+    return remarks + (list_stress_remarks(results, list_stressed_bodies(results)) if is_wanted("stresses") else [])
 
 
 def pick(objects: Objects, wanted: Sequence[str]) -> tuple[Measures, list[str]]:
