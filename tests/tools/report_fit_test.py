@@ -305,6 +305,38 @@ class Fit(PageTestCase):
         ride = self.open("semi.html").evaluate("document.getElementById('ride-problem').textContent")
         self.assertIn("flexible: the MTVV is the largest r.m.s. over 1 s, and the span has only 0.5 s", ride)
 
+    def test_places_along_a_body_can_be_read_at_any_width(self):
+        # On a telephone a frame of 8 m had the single mark 0.
+        for size in SIZES:
+            page = self.open("semi.html", size=size)
+            marks = page.evaluate(
+                "(() => { const kind = CanvasRenderingContext2D.prototype, write = kind.fillText; let marks = 0;"
+                "kind.fillText = function (text, x, y) { marks += y === LOADS_HEIGHT - LOADS_BOTTOM + 10;"
+                "return write.call(this, text, x, y); };"
+                "try { drawLoads(); } finally { kind.fillText = write; } return marks; })()"
+            )
+            self.assertGreaterEqual(marks, 3 * page.evaluate("loads.shown.quantities.length"), size)
+        for low, high in ((-3.6, 4.4), (0.0, 9.9), (-6.1, 7.4), (-0.45, 0.55), (0.0, 1.0), (-11.0, 0.0)):
+            for pixels in (230, 266, 300, 700, 1300):
+                marks = page.evaluate(f"markEvenly({low}, {high}, {pixels / 70})")
+                self.assertGreaterEqual(len(marks), 3)
+                self.assertTrue(low <= marks[0] and marks[-1] <= high)
+                self.assertGreater((marks[1] - marks[0]) * pixels / (high - low), 38)  # px: wider than −12.5
+
+    def test_the_rows_of_one_point_have_one_unit(self):
+        page = self.open("part.html")
+        rows = [{"of": of, "name": name, "unit": unit, "values": [value]} for of, name, unit, value in (
+            ("rider.seat", "displacement, highest", "m", 1.7), ("rider.seat", "displacement, lowest", "m", -0.0407),
+            ("rider.seat", "acceleration, highest", "m/s^2", 3.0), ("body.seat", "displacement, lowest", "m", -0.0407),
+            ("tyre", "greatest load", "N", 1200.0), ("tyre", "load variation", "N", 900.0))]  # fmt: skip
+        page.evaluate(f"fillStatistics(document.getElementById('summary-table'), {json.dumps(rows)})")
+        found = page.evaluate(
+            "[...document.querySelectorAll('#summary-table td')].filter((one) => one.innerText)"
+            ".map((one) => one.innerText)"
+        )
+        expected = ["m", "1.700", "m", "−0.04070", "m/s²", "3", "mm", "−40.70", "kN", "1.200", "kN", "0.9000"]
+        self.assertEqual(found, expected)
+
     def test_runs_over_different_spans_are_not_compared_in_per_cent(self):
         page = self.open("spans.html")
         for table in ("summary-table", "ride-table"):

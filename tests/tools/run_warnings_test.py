@@ -11,7 +11,8 @@ from synthetic_results import write_results, write_series, write_texts
 from tool_test_case import ToolTestCase
 
 from sprung_tools.files.results_file import open_results
-from sprung_tools.runs.run_warnings import list_warnings
+from sprung_tools.runs.labelled_runs import Run
+from sprung_tools.runs.run_warnings import list_doubts, list_warnings
 from sprung_tools.runs.stored_histories import list_gaps
 
 
@@ -129,6 +130,8 @@ class RunWarnings(ToolTestCase):
         (found,) = self.list(self.folder / "a.h5")
         self.assertEqual((found.section, found.of), ("equilibrium", ("front_tyre",)))
         self.assertIn("front_tyre left the ground", found.text)
+        with open_results(self.folder / "a.h5") as results:  # tables and pictures have none of these modes
+            self.assertNotIn("left the ground", "".join(list_doubts([Run("a", results)])))
         with h5py.File(self.folder / "a.h5", "a") as file:  # what happened is stored where forces are not
             del file["forces/front_tyre/contact"]
             write_series(file, "events/time", np.array([0.1, 0.2]), "s")

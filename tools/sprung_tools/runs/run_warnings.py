@@ -130,10 +130,11 @@ def warn_of_wheels_in_the_air(results: ResultsFile) -> list[RunWarning]:
 
 def list_doubts(runs: Sequence[Run]) -> list[str]:
     """What the runs warned of, and what their files do not hold or hold thinned, each in a line: what every command
-    says beside the numbers, curves and files that it makes of runs."""
+    says beside the numbers, curves and files that it makes of runs. Without what concerns the vehicle's modes about its
+    equilibrium: only the measures and the page of `report` have them."""
     doubts = []
     for run in runs:
-        warnings = dict.fromkeys(one.text for one in list_warnings(run.results))
+        warnings = dict.fromkeys(one.text for one in list_warnings(run.results) if one.section != EQUILIBRIUM)
         doubts += [f"warning: {run.label}: {text}" for text in warnings]
         doubts += [f"remark: {run.label}: {text}" for text in list_gaps(run.results)]
     return doubts

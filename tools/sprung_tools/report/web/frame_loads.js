@@ -37,13 +37,16 @@ function scaleLoad(quantity, width) {
   };
 }
 
-/** Round values for an axis of some pixels. */
+/** Round values for an axis, at most as many; more where these were fewer than three, from which no scale can be read. */
 function markEvenly(low, high, most) {
   const rough = (high - low) / Math.max(most, 1), power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((digit) => digit * power).find((one) => one >= rough);
-  const marks = [];
-  for (let k = Math.ceil(low / step); k * step <= high + 1e-12 * step; ++k) marks.push(k * step);
-  return marks;
+  const steps = [0.5, 1, 2, 5, 10].map((digit) => digit * power), least = steps.findIndex((one) => one >= rough);
+  const mark = (step) => {
+    const first = Math.ceil(low / step - 1e-12), count = Math.floor(high / step + 1e-12) - first + 1;
+    return Array.from({length: count}, (_, k) => (first + k) * step);
+  };
+  const marks = mark(steps[least]);
+  return marks.length < 3 && least > 0 ? mark(steps[least - 1]) : marks;
 }
 
 function drawLoadAxes(context, scale, unit, factor, name, axis) {

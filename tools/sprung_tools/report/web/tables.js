@@ -44,6 +44,9 @@ function fillStatistics(table, rows) {
   table.replaceChildren(element("thead", {}, head));
   let body = null, of = null;
   const [doubtful, bodies] = ["summary", "loads"].map((section) => new Set(warningsOf(section).flatMap((one) => one.of)));
+  const keyOf = (row) => `${row.of}\u0000${row.unit}`, peaks = new Map();  // so that the rows of a subject share their units
+  const numbersOf = (row) => row.values.filter((value) => typeof value === "number").map(Math.abs);
+  for (const row of rows) peaks.set(keyOf(row), Math.max(peaks.get(keyOf(row)) ?? -Infinity, ...numbersOf(row)));
   const isDoubtful = (row) => doubtful.has(row.of) || bodies.has(row.name.startsWith("deflection") ? row.of.split(".")[0] : row.of);
   for (const row of rows) {
     if (row.of !== of) {
@@ -54,8 +57,7 @@ function fillStatistics(table, rows) {
       body.append(element("tr", {}, heading));
       table.append(body);
     }
-    const known = row.values.filter((value) => typeof value === "number");
-    const {unit, factor} = readable(row.unit, Math.max(...known.map(Math.abs)));
+    const {unit, factor} = readable(row.unit, peaks.get(keyOf(row)));
     const cells = row.values.map((value, index) => {
       const isText = typeof value === "string";
       const cell = element("td", {class: isText ? "number words" : "number"}, value === null ? "–" : isText ? value : format(factor * value));
