@@ -323,6 +323,41 @@ class Fit(PageTestCase):
                 self.assertTrue(low <= marks[0] and marks[-1] <= high)
                 self.assertGreater((marks[1] - marks[0]) * pixels / (high - low), 38)  # px: wider than −12.5
 
+    def test_names_of_boundaries_and_the_time_cursor_hide_nothing(self):
+        for size in SIZES:
+            page = self.open("semi.html", size=size)
+            names = page.evaluate(
+                "[...document.querySelectorAll('#bands .boundary')].map((one) => one.getBoundingClientRect())"
+                ".map((box) => [box.left, box.right, box.top, box.bottom])"
+            )
+            self.assertEqual(len(names), 6)
+            place = "document.querySelector('#bands .plot').getBoundingClientRect()"
+            left, right = page.evaluate(f"[{place}.left, {place}.right]")
+            for name in names:  # right of the curves, whose axis ends 44 px before the plot
+                self.assertGreaterEqual(name[0], right - 44.0)
+                self.assertLessEqual(name[1], right)
+            for above, below in itertools.pairwise(names):
+                self.assertGreaterEqual(below[2] - above[3], -1.0)  # px
+            cursor, labels = page.evaluate(
+                "((box) => [box.querySelector('.cursor').getBoundingClientRect().bottom,"
+                "[...box.querySelectorAll('.dygraph-axis-label-x')].map((one) => one.getBoundingClientRect().top)])"
+                "(document.querySelector('#history-charts .plot-box'))"
+            )
+            self.assertLessEqual(cursor, min(labels) + 3.0)  # px: the digits begin below the edge of their box
+
+    def test_extremes_of_a_load_have_one_unit_and_each_time_one_line(self):
+        page = self.open("semi.html", size="phone")
+        rows = page.evaluate(
+            "[...document.querySelectorAll('#load-table tbody tr')]"
+            ".map((row) => [...row.cells].map((one) => one.innerText))"
+        )
+        for load in ("bending moment", "shear force"):
+            units = {row[1].partition(" ")[2] for row in rows if row[0].startswith(load)}
+            self.assertEqual(len(units), 1, rows)
+        self.assertNotIn("-", "".join(row[2] for row in rows))  # a minus, as in the other columns
+        heights = page.evaluate("[...document.querySelectorAll('#load-table button')].map((one) => one.offsetHeight)")
+        self.assertLess(max(heights), 34)
+
     def test_the_rows_of_one_point_have_one_unit(self):
         page = self.open("part.html")
         rows = [{"of": of, "name": name, "unit": unit, "values": [value]} for of, name, unit, value in (

@@ -84,7 +84,7 @@ function drawLoad(canvas, found, quantity) {
   context.beginPath();
   [...at(quantity.high), ...at(quantity.low).reverse()].forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
   context.closePath();
-  context.fillStyle = style("--ground");
+  context.fillStyle = style("--envelope");
   context.fill();
   drawLoadAxes(context, scale, unit, factor, quantity.name, found.axis);
   context.strokeStyle = colour;
@@ -133,13 +133,14 @@ function fillExtremes(found) {
   const body = element("tbody");
   let number = 0;
   for (const quantity of found.quantities) {
-    for (const extreme of [...quantity.extremes, quantity.difference, ...(quantity.own || [])].filter(Boolean)) {
-      const {unit, factor} = readable(quantity.unit, Math.abs(extreme.value));
+    const all = [...quantity.extremes, quantity.difference, ...(quantity.own || [])].filter(Boolean);
+    const {unit, factor} = readable(quantity.unit, Math.max(...all.map((one) => Math.abs(one.value))));
+    for (const extreme of all) {
       const button = element("button", {type: "button", id: `load-show-${++number}`, class: "save"}, `${extreme.time.toFixed(3)} s`);
       button.addEventListener("click", () => clock.set(extreme.time));
       body.append(element("tr", {}, element("th", {scope: "row"}, `${quantity.name}, ${extreme.what}`),
         element("td", {class: "number"}, `${format(factor * extreme.value)} ${unit}`),
-        element("td", {class: "number"}, extreme.where), element("td", {}, button)));
+        element("td", {class: "number"}, extreme.where.replaceAll("-", "−")), element("td", {}, button)));
     }
   }
   byId("load-table").replaceChildren(element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "extreme"),

@@ -79,9 +79,9 @@ function makeBands() {
     chart.named = () => labels.length - exposures.length;
     chart.plot.setAttribute("aria-label", `Vertical acceleration of ${select.value} by third-octave bands, ${labels.join(" and ")}`);
     chart.graph = new Dygraph(chart.plot, centres.map((f, k) => [f, ...columns.map((column) => column[k])]), {
-      ...commonOptions(chart.legend, "m/s²"), labels: ["frequency, Hz", ...labels], colors: colours, xlabel: "band, Hz", ylabel: "r.m.s., m/s²", series,
+      ...commonOptions(chart.legend, "m/s²"), rightGap: 44, labels: ["frequency, Hz", ...labels], colors: colours, xlabel: "band, Hz", ylabel: "r.m.s., m/s²", series,
       legendFormatter: formatBands(chart.legend, exposures.length),
-      drawCallback: (graph) => nameBoundaries(graph, exposures),
+      drawCallback: (graph) => nameBoundaries(graph, chart.plot, exposures),
       axes: {
         x: {logscale: true, valueFormatter: (value) => `${format(value)} Hz`, ticker: markDecades([1, 2, 5], formatTick)},
         y: {logscale: true, axisLabelWidth: 54, ticker: markDecades([1], formatTick), valueFormatter: (value) => format(value),
@@ -94,20 +94,17 @@ function makeBands() {
   draw();
 }
 
-/** The legend names the runs; the boundaries are named at their lines. */
+/** The legend names the runs; the boundaries are named where their lines end. */
 const formatBands = (legend, boundaries) => (info) =>
   formatLegend(legend, "m/s²")({...info, series: info.series.slice(0, info.series.length - boundaries)});
 
-function nameBoundaries(graph, exposures) {
-  const context = graph.hidden_ctx_, {centres, curves} = data.boundaries, at = centres.indexOf(50);
-  context.save();
-  context.font = "11px system-ui, sans-serif";
-  context.textBaseline = "middle";
+function nameBoundaries(graph, plot, exposures) {
+  const {curves} = data.boundaries, area = graph.getArea(), left = area.x + area.w + 4;
+  for (const name of plot.querySelectorAll(".boundary")) name.remove();
   for (const exposure of exposures) {
-    const x = Math.min(placeFrequency(graph, centres[at]), graph.getArea().x + graph.getArea().w - context.measureText(exposure).width);
-    drawPlate(context, exposure, x, graph.toDomYCoord(curves[exposure][at]), style("--soft"));
+    const style = `left: ${left}px; top: ${graph.toDomYCoord(curves[exposure].at(-1))}px`;
+    plot.append(element("div", {class: "dygraph-axis-label boundary", style}, exposure));
   }
-  context.restore();
 }
 
 /** A text on the card's colour, so that no grid line runs through it. */
