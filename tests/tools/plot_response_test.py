@@ -49,6 +49,15 @@ class PlotResponse(ToolTestCase):
                 curves[colour] = points
         return re.findall(r"<!-- (.*?) -->", svg), curves
 
+    def test_all_vehicles_are_in_the_heading_and_their_speeds_in_the_order_of_the_files(self):
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            file.attrs.update(title="bus", speed=9.0)
+        texts, _ = self.draw_svg("a.h5", "b.h5", "--show", SEAT)
+        self.assertIn("bus, synthetic", texts)
+        self.assertIn("speed 9, 7.5 m/s", " ".join(texts))
+        texts, _ = self.draw_svg("a.h5", "--show", SEAT, "--bands")
+        self.assertIn("boundaries of ISO 2631:1978", " ".join(texts))  # whole, and not shortened in its middle
+
     def test_magnitudes_of_all_files_over_frequency(self):
         texts, curves = self.draw_svg("soft=a.h5", "stiff=b.h5", "--show", f"seat={SEAT}", "--title", "A truck")
         for text in ("A truck", "soft", "stiff", "seat, m/s²/m", "frequency, Hz"):

@@ -45,7 +45,7 @@ class PlotResults(ToolTestCase):
         quantity = f"{2000 * 'seat'} 1=bodies/chassis/displacement.y"
         texts, _ = self.draw_svg(f"{2000 * 'rigid'} one=a.h5", "soft=b.h5", "--show", quantity)
         for start, end, least, most in (
-            ("a long name ", "long name ", 50, 100), ("rigid", "one", 50, 100), ("seat", "seat", 25, 60),
+            ("a long name ", "long name , synthetic", 50, 100), ("rigid", "one", 50, 100), ("seat", "seat", 25, 60),
         ):  # fmt: skip
             (text,) = [text for text in texts if text.startswith(start)]
             self.assertRegex(text, f"…[^…]*{re.escape(end)}$")

@@ -79,7 +79,7 @@ class StudyPage(unittest.TestCase):
         """Chooses the entry of a menu that has a text."""
         page.evaluate(
             f"(() => {{ const s = document.getElementById('{element}');"
-            f"s.value = [...s.options].find((one) => one.textContent === '{label}').value;"
+            f"s.value = [...s.options].find((one) => one.textContent.split(', ')[0] === '{label}').value;"
             "s.dispatchEvent(new Event('change', {bubbles: true})); })()"
         )
         page.settle()
@@ -267,6 +267,10 @@ class StudyPage(unittest.TestCase):
         self.choose(page, "best-measure", "tyres/tyre/dynamic_load_rms")
         heading = page.evaluate("document.querySelector('#best-table thead').textContent")
         self.assertIn("tyres/tyre/dynamic_load_rms, N", heading)
+        chosen = page.evaluate(
+            "(({options, selectedIndex}) => options[selectedIndex].text)(document.getElementById('best-measure'))"
+        )
+        self.assertEqual(chosen, "tyres/tyre/dynamic_load_rms, N")
         shown = page.evaluate("document.querySelector('#best-table tbody tr td:nth-child(5)').textContent")
         self.assertAlmostEqual(float(shown) / min(self.column("tyres/tyre/dynamic_load_rms")), 1.0, places=4)
         units = page.evaluate("['N', 'N m', 'Pa', 'rad', 'm', 'm/s^1.75'].map((unit) => titleOf({name: 'a', unit}))")

@@ -20,7 +20,7 @@ def main() -> int:
         help="an output such as points/chassis.seat/acceleration.y, and its name; may be given several times",
     )  # fmt: skip
     parser.add_argument("-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)")
-    parser.add_argument("--title", default="", help="heading (default: the vehicle's name)")
+    parser.add_argument("--title", default="", help="heading (default: the names of the vehicles)")
     drawing = parser.add_mutually_exclusive_group()
     drawing.set_defaults(drawing=MAGNITUDE)
     drawing.add_argument(

@@ -7,7 +7,7 @@ from pathlib import Path
 from sprung_tools.files.whole_file import check_output, write_whole
 from sprung_tools.report.page import LARGEST, make_small_page
 from sprung_tools.report.summary import read_checks
-from sprung_tools.runs.labelled_runs import open_runs, runs_with, shown_quantities
+from sprung_tools.runs.labelled_runs import join_titles, open_runs, runs_with, shown_quantities
 from sprung_tools.terminal.program import make_parser
 
 
@@ -18,7 +18,7 @@ def main() -> int:
     )
     parser.add_argument("runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name on the page")
     parser.add_argument("-o", "--output", required=True, metavar="PAGE", help="file to write (.html)")
-    parser.add_argument("--title", default="", help="heading (default: the vehicle's name)")
+    parser.add_argument("--title", default="", help="heading (default: the names of the vehicles)")
     parser.add_argument(
         "--superelements", metavar="FOLDER", help="folder of the superelement files, to show their checks"
     )
@@ -33,7 +33,7 @@ def main() -> int:
     extra = shown_quantities(arguments.show)
     for shown in extra:
         runs_with(runs, shown)
-    title = arguments.title or runs[0].results.title
+    title = arguments.title or join_titles(run.results.title for run in runs)
     checks = read_checks(arguments.superelements, runs)
     page = make_small_page(title, runs, extra, checks)
     write_whole(arguments.output, page)

@@ -14,7 +14,7 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_real, read_text
 from sprung_tools.plots.picture_file import PANEL_HEIGHT, add_legend, label_unit, line_style, make_figure
 from sprung_tools.runs.labelled_responses import Response
-from sprung_tools.runs.labelled_runs import Shown
+from sprung_tools.runs.labelled_runs import Shown, join_titles
 from sprung_tools.runs.ride_of_response import LEAST_IN_BAND, calc_linear_bands
 from sprung_tools.signals.third_octaves import BOUNDED, NOMINAL, PROFICIENCY, calc_comfort_boundary
 
@@ -78,11 +78,11 @@ BANDS = Drawing("r.m.s. in third-octave bands on a random road, boundaries of IS
 def make_response_figure(
     responses: Sequence[Response], outputs: Sequence[Shown], title: str, drawing: Drawing
 ) -> Figure:
-    """Draws a panel for each output. title: the heading, the vehicle's name if empty."""
-    speeds = sorted({read_real(response.file, "", "speed") for response in responses})
+    """Draws a panel for each output. title: the heading, the names of the vehicles if empty."""
+    speeds = dict.fromkeys(read_real(response.file, "", "speed") for response in responses)
     driven = ", ".join(f"{speed:g}" for speed in speeds)
-    caption = f"{drawing.what}, linearised about static equilibrium; speed {driven} m/s"
-    title = title or read_text(responses[0].file, "", "title")
+    caption = f"{drawing.what},\nlinearised about static equilibrium; speed {driven} m/s"
+    title = title or join_titles(read_text(response.file, "", "title") for response in responses)
     figure, panels = make_figure([PANEL_HEIGHT] * len(outputs), title, caption)
     for axes, shown in zip(panels, outputs):
         drawing.draw_panel(axes, responses, shown)

@@ -35,6 +35,11 @@ def split_label(argument: str) -> tuple[str, str]:
     return (label, value) if separator and not os.path.exists(argument) else ("", argument)
 
 
+def join_titles(titles: Iterable[str]) -> str:
+    """The heading of what shows several vehicles: the title of each, once."""
+    return ", ".join(dict.fromkeys(titles))
+
+
 def check_labelled_output(path: str, arguments: Iterable[str]) -> None:
     """InputError if the file to be written is one of the files `[LABEL=]FILE`."""
     check_output(path, [split_label(one)[1] for one in arguments])

@@ -60,7 +60,7 @@ function choose(run) {
   for (const listener of chosen.listeners) listener();
 }
 
-const optionsOf = (some) => some.map((one) => ({value: one.index, label: one.name, group: one.isParameter ? "Parameters" : "Measures"}));
+const optionsOf = (some) => some.map((one) => ({value: one.index, label: titleOf(one), group: one.isParameter ? "Parameters" : "Measures"}));
 
 /** Runs that have a number in each of some columns. */
 const runsWith = (...some) => data.rows.map((_, run) => run).filter((run) => some.every((one) => one.numbers[run] !== null));
