@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "dynamics/linear/linearisation.h"
@@ -99,15 +100,22 @@ Eigen::VectorXd iterate_with_same_stiffness(const Model& model, PartitionedEquat
                                             const LinearisedSystem& system, const ModalForce& modal,
                                             const SteadyMotion& motion, double last_size, double tolerance,
                                             int& steps) {
+  const auto calc_force = [&](const Eigen::VectorXd& q_i) -> std::optional<Eigen::VectorXd> {
+    Eigen::VectorXd force = calc_static_force(equations, 0.0, q_i, nullptr, motion);
+    if (force.size() == 0 || !force.allFinite()) return std::nullopt;
+    return force;
+  };
   while (last_size > tolerance) {
-    Eigen::VectorXd q_i = select_independent(system, equations.q());
-    const Eigen::VectorXd force = calc_static_force(equations, 0.0, q_i, nullptr, motion);
-    if (force.size() == 0) break;
-    const Eigen::VectorXd step = modal.calc_step(modal.modes.vectors.transpose() * force, 0.0);
+    Eigen::VectorXd good = equations.q();
+    Eigen::VectorXd q_i = select_independent(system, good);
+    const auto force = calc_force(q_i);
+    if (!force) return good;
+    const Eigen::VectorXd step = modal.calc_step(modal.modes.vectors.transpose() * *force, 0.0);
     const double size = largest_natural(model, system.partition.independent, step);
     if (!(size < kFastDecrease * last_size)) break;
+    good = equations.q();
     q_i += step;
-    if (calc_static_force(equations, 0.0, q_i, nullptr, motion).size() == 0) break;
+    if (!calc_force(q_i)) return good;
     ++steps;
     last_size = size;
   }

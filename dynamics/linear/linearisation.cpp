@@ -1,7 +1,10 @@
 #include "dynamics/linear/linearisation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "dynamics/linear/forces_without_value.h"
 #include "dynamics/linear/state_derivatives.h"
 #include "dynamics/linear/undamped_modes.h"
 #include "dynamics/system/energy.h"
@@ -139,6 +142,38 @@ Eigen::MatrixXd calc_reduced_damping(PartitionedEquations& equations, const Stea
       motion, needed_by(motion));
 }
 
+namespace {
+
+// @throws support::NumericalError where a force has no value at the positions that were evaluated last
+void require_forces(const PartitionedEquations& equations, double time) {
+  const std::string elements = describe_forces_without_value(equations.terms().model(), time, equations.q());
+  if (elements.empty()) return;
+  throw support::NumericalError(
+      fmt::format("no force can be calculated for {}, at the start or where the search for the equilibrium "
+                  "leads; an air spring, say, has none where no volume is left in it, or where its "
+                  "effective_area ends; check what holds the bodies that it joins, and their masses and "
+                  "positions",
+                  elements));
+}
+
+// Without a value of the stiffness, the reason is found among the positions of the differences.
+void require_stiffness(PartitionedEquations& equations, double time, const Eigen::VectorXd& q_i,
+                       const SteadyMotion& motion, const LinearisedSystem& system) {
+  if (system.stiffness.allFinite()) return;
+  const Model& model = equations.terms().model();
+  for (Eigen::Index k = 0; k < q_i.size(); ++k) {
+    const double scale = model.coordinate_scale(system.partition.independent[static_cast<std::size_t>(k)]);
+    for (const double steps : {1.0, -1.0, 2.0, -2.0}) {
+      const Eigen::VectorXd shift = steps * kPositionStep * scale * Eigen::VectorXd::Unit(q_i.size(), k);
+      calc_static_force(equations, time, q_i + shift, nullptr, motion);
+      require_forces(equations, time);
+    }
+  }
+  throw support::NumericalError("linearise: the stiffness at the given positions has no value");
+}
+
+}  // namespace
+
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
                            const SteadyMotion& motion, Eigen::MatrixXd* spread) {
   equations.choose_partition_at(time, q);
@@ -149,7 +184,8 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
   for (Eigen::Index k = 0; k < f; ++k) q_i[k] = q[system.partition.independent[static_cast<std::size_t>(k)]];
 
   system.force = calc_static_force(equations, time, q_i, nullptr, motion);
-  if (system.force.size() != f) {
+  if (system.force.size() != f || !system.force.allFinite()) {
+    require_forces(equations, time);
     throw support::NumericalError("linearise: the constraints cannot be satisfied at the given positions");
   }
   system.directions = equations.calc_directions();
@@ -158,6 +194,7 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
   system.damping = calc_reduced_damping(equations, motion);
   calc_static_force(equations, time, q_i, nullptr, motion);
   add_stiffness(equations, time, q_i, motion, system, spread);
+  require_stiffness(equations, time, q_i, motion, system);
   calc_static_force(equations, time, q_i, nullptr, motion);
   return system;
 }

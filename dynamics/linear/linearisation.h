@@ -26,7 +26,9 @@ struct LinearisedSystem {
 /// bodies' modes is added without a difference, so that stiff modes cause no rounding error.
 /// @param q            assembled positions; the branches are chosen at each point of the differences
 /// @param[out] spread  f×f, ≥ 0: how far the slopes of the stiffness lie apart (linear, eq. 12); may be null
-/// @throws support::NumericalError if the constraints cannot be satisfied around q
+/// @throws support::NumericalError if the constraints cannot be satisfied around q, or if a force has no
+/// value
+///         there (the message names the force element)
 /// Checked by tests/dynamics/linear/vehicle_modes_test.cpp, tests/verification/steady_test.py
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
                            const SteadyMotion& motion = {}, Eigen::MatrixXd* spread = nullptr);

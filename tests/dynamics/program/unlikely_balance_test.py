@@ -7,6 +7,9 @@ import unittest
 from dynamics_test_case import ROOT, DynamicsTestCase
 
 
+TEMPLATES = ROOT / "dynamics/models/templates"
+
+
 class WheelsUnderTheRoad(DynamicsTestCase):
     def test_the_deepest_wheel_and_its_depth_are_named(self):
         # The half car 30 m too low, on wheels with a length of contact: the centres of the wheels are at 0.3 − 30 m.
@@ -151,6 +154,37 @@ spring = { polynomial = [0.0, 100.0] }
         process = self.run_program()
         self.assert_refused(process, "vehicle.toml:", "'forces.seat.free_length.static': where the length is reached, "
                             "the spring points the other way than as drawn")
+
+
+class AirSpringsWithoutVolume(DynamicsTestCase):
+    def test_they_are_named_where_the_vehicle_is_drawn_so(self):
+        vehicle = (
+            'name = "squeezed"\n[bodies.body]\nmass = 5000.0\ninertia = 100.0\nposition = [0.0, 0.01]\n'
+            '[[joints]]\nname = "guide"\ntype = "translational"\na = "ground.origin"\nb = "body.origin"\n'
+            'axis = [0.0, 1.0]\n[[forces]]\nname = "air"\ntype = "air-spring"\na = "ground.origin"\nb = "body.origin"\n'
+            "design_height = 0.3\neffective_area = 0.05\nvolume = 0.01\nload = 5000.0\n"
+        )
+        self.assert_named(vehicle, 'duration = 0.1\nvehicle = "vehicle.toml"\n', "'air' (points 0.01 m apart)")
+
+    def test_they_are_named_where_the_search_squeezes_them(self):
+        # The rear axle is not guided, and falls over on a small air spring that shares its air with that of the front.
+        text = (TEMPLATES / "half_car.toml").read_text(encoding="utf-8")
+        text = re.sub(r'\[\[joints\]\]\nname = "rear_guide".*?\n\n', "\n", text, flags=re.DOTALL)
+        air = (
+            '[[forces]]\nname = "air"\ntype = "air-spring"\na = "rear_axle.origin"\nb = "body.rear"\n'
+            "multiplicity = 2\ndesign_height = 0.25\neffective_area = 0.01\nvolume = 0.001\nload = 2900.0\n"
+            'partner = { a = "front_axle.origin", b = "body.front", line = { diameter = 0.012 } }\n\n'
+        )
+        first, last = (text.index(f'[[forces]]\nname = "{name}"') for name in ("front_suspension", "front_tyre"))
+        run = (TEMPLATES / "half_car_run.toml").read_text(encoding="utf-8").replace("half_car.toml", "vehicle.toml")
+        self.assert_named(text[:first] + air + text[last:], run, "'air' (points ")
+
+    def assert_named(self, vehicle, run, words):
+        (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
+        (self.folder / "bump.toml").write_text(run, encoding="utf-8")
+        process = self.run_program(verb="equilibrium")
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertIn(f"no force can be calculated for {words}", process.stderr)
 
 
 class Tyres(DynamicsTestCase):
