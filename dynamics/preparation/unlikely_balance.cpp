@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "dynamics/output/resting_forces.h"
+#include "dynamics/preparation/hanging_bodies.h"
 #include "dynamics/preparation/turned_springs.h"
 #include "dynamics/system/system_terms.h"
 #include "tools/support/errors/input_error.h"
@@ -59,6 +60,18 @@ void check_stops(const ForceDescription& force, const ForceElement& element, std
             "at {:.4g} {}, both from the free length",
             force.name, is_compression ? "compression" : "rebound", beyond, channel->unit, deflection,
             channel->unit, std::get<double>(parameter.value), channel->unit)));
+  }
+}
+
+void remark_on_hanging_bodies(const Vehicle& vehicle, const Model& model, const RestingForces& at_rest,
+                              std::vector<std::string>& remarks) {
+  for (const HangingBody& one : find_hanging_bodies(vehicle, model, at_rest)) {
+    const ForceDescription& force = vehicle.forces[one.force];
+    remarks.push_back(remark_at(
+        force.location,
+        fmt::format("'forces.{}' pulls with {:.4g} N, and 'bodies.{}' hangs on it: nothing else holds it up; "
+                    "is a tyre missing?",
+                    force.name, one.pull, vehicle.bodies[static_cast<std::size_t>(one.body)].name)));
   }
 }
 
@@ -119,6 +132,7 @@ std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Mod
                                 fmt::format("'bodies.{}' is turned by {:.3g}° from where it is drawn",
                                             vehicle.bodies[b].name, turned * 180.0 / std::numbers::pi)));
   }
+  if (has_tyres) remark_on_hanging_bodies(vehicle, model, at_rest, remarks);
   for (const std::size_t f : find_turned_springs(vehicle, model, drawn, found)) {
     remarks.push_back(
         remark_at(vehicle.forces[f].location,

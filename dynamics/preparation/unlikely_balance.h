@@ -10,8 +10,8 @@
 namespace sprung::dynamics {
 
 /// Remarks on a static equilibrium that hardly any vehicle has: springs that point the other way than as
-/// drawn, suspensions on their stops, bodies of a vehicle on tyres that are turned or moved far, tyres that
-/// are pressed in deeply, and on wheels that are drawn under the road.
+/// drawn, suspensions on their stops, bodies of a vehicle on tyres that are turned or moved far or hang on a
+/// spring, tyres that are pressed in deeply, and on wheels that are drawn under the road.
 /// @param drawn, found  positions before and in equilibrium, num_coordinates
 /// @throws support::InputError at a tyre that is pressed in by more than its radius
 /// Checked by tests/dynamics/program/unlikely_balance_test.py

@@ -156,6 +156,22 @@ spring = { polynomial = [0.0, 100.0] }
                             "the spring points the other way than as drawn")
 
 
+class HangingAxles(DynamicsTestCase):
+    def test_an_axle_without_a_tyre_that_hangs_on_a_spring_as_drawn_is_remarked_on(self):
+        # The spring's length is that of the drawing, so that nothing moves: it pulls the axle up.
+        text = (TEMPLATES / "bus.toml").read_text(encoding="utf-8")
+        run = (TEMPLATES / "bus_run.toml").read_text(encoding="utf-8")
+        (self.folder / "bump.toml").write_text(run.replace("bus.toml", "vehicle.toml"), encoding="utf-8")
+        tyre = re.search(r'\[\[forces\]\]\nname = "trailing_tyre".*?(?=\[\[|\Z)', text, re.DOTALL)[0]
+        for vehicle, told in ((text, False), (text.replace(tyre, ""), True)):
+            (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
+            process = self.run_program(verb="equilibrium")
+            self.assertEqual(process.returncode, 0, process.stderr)
+            found = re.findall(r"vehicle.toml:\d+:\d+: in static equilibrium 'forces\.(\w+)' pulls with .* N, and "
+                               r"'bodies\.(\w+)' hangs on it: nothing else holds it up", process.stderr)  # fmt: skip
+            self.assertEqual(found, [("trailing_suspension", "trailing_axle")] if told else [], process.stderr)
+
+
 class AirSpringsWithoutVolume(DynamicsTestCase):
     def test_they_are_named_where_the_vehicle_is_drawn_so(self):
         vehicle = (
