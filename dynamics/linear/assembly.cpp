@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "dynamics/linear/rigid_placement.h"
 #include "dynamics/system/constrained_equations.h"
 #include "dynamics/system/partition.h"
 #include "tools/support/dense/orthogonal_factors.h"
@@ -208,12 +209,18 @@ double close_joints(SystemTerms& terms, Eigen::VectorXd& q) {
 
 }  // namespace
 
+std::string AssemblyReport::describe_shift() const {
+  if (shift == 0.0) return {};
+  return fmt::format("Shifted as a whole by {:.4g} m, to where its prescribed motion begins\n", shift);
+}
+
 AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
+  AssemblyReport report;
+  report.shift = place_driven_vehicles(model, q);
   SystemTerms terms(model);
   terms.update_positions(0.0, q);
   std::vector<Eigen::Vector2d> start;
   for (const MarkerState& marker : terms.markers()) start.push_back(marker.r);
-  AssemblyReport report;
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
   terms.calc_residual(phi);
   find_widest_gap(model, phi, report);

@@ -15,17 +15,20 @@ struct MotionGap {
 
 /// How the constraints were satisfied at the start.
 struct AssemblyReport {
+  double shift = 0.0;             ///< of a whole vehicle, first, to where its prescribed motion begins [m]
   double largest_movement = 0.0;  ///< of any marker [m]
   std::string moved_marker;       ///< which one
   double residual = 0.0;          ///< largest |φ| afterwards
   double widest_gap = 0.0;        ///< of a joint before, a distance [m]
   std::string open_joint;         ///< which joint
   MotionGap motion_gap;           ///< the largest one, in natural sizes
+
+  std::string describe_shift() const;  ///< a line of text; empty for none
 };
 
-/// Moves the bodies from the positions of the input file so that every joint closes, with the least movement
-/// in the mass metric: heavy bodies move least, and bodies deform only where they cannot close the joints as
-/// rigid ones (Gauss–Newton).
+/// Moves the bodies from the positions of the input file so that every joint closes: whole vehicles to where
+/// prescribed motions begin (rigid_placement), then with the least movement in the mass metric: heavy bodies
+/// move least, and bodies deform only where they cannot close the joints as rigid ones (Gauss–Newton).
 /// @param[in,out] q  num_coordinates
 /// @throws support::InputError at the joint, if the joints cannot be closed from the given positions, or if
 ///         some of them are redundant (the message names all that take part)

@@ -51,6 +51,7 @@ std::string format_equilibrium(const BalanceReport& report) {
                       ? ""
                       : fmt::format(", limited by rounding (otherwise {:.0e})", Equilibrium::kTolerance),
                   equilibrium.stable ? "" : "; UNSTABLE: a direction of negative stiffness");
+  text += report.assembly.describe_shift();
   if (report.assembly.largest_movement > 1e-9) {
     text += fmt::format("Joints closed first: {} moved {:.3g} m\n", report.assembly.moved_marker,
                         report.assembly.largest_movement);

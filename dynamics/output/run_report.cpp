@@ -86,6 +86,7 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
                   model.bodies.size(), model.bodies.size() == 1 ? "body" : "bodies", describe_modes(model),
                   support::format_count(model.joints.size(), "joint"), model.first_state(),
                   model.num_constraints, model.num_mechanical_freedoms());
+  text += assembly.describe_shift();
   if (assembly.largest_movement > 1e-9) {
     text += fmt::format("Assembled: {} moved {:.3g} m to close the joints\n", assembly.moved_marker,
                         assembly.largest_movement);

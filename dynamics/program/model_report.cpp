@@ -139,6 +139,7 @@ std::string format_model(const PreparedRun& prepared, const StoragePlan& storage
 
 Json make_start_json(const PreparedRun& prepared) {
   Json start = Json::object();
+  if (prepared.assembly.shift > 0.0) start["shift"] = prepared.assembly.shift;
   if (prepared.assembly.largest_movement > 0.0)
     start["moved"] = {{"point", prepared.assembly.moved_marker}, {"by", prepared.assembly.largest_movement}};
   if (prepared.initial_velocities.largest_change > 0.0) {

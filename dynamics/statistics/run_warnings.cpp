@@ -193,10 +193,10 @@ std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyRe
   const MotionGap& gap = assembly.motion_gap;
   if (gap.natural_size > kFarMotion && assembly.largest_movement <= model.length_scale) {
     warn(fmt::format(
-        "the prescribed motion '{}' begins {:.3g} {} {} its value in the drawing, so that bodies were "
+        "the prescribed motion '{}' begins at a value {:.3g} {} {} than in the drawing, so that bodies were "
         "moved and turned to meet it, and what is \"as-drawn\" is as it is there; begin its function at "
         "the drawn value",
-        gap.motion, std::abs(gap.above), gap.unit, gap.above > 0.0 ? "below" : "above"));
+        gap.motion, std::abs(gap.above), gap.unit, gap.above > 0.0 ? "smaller" : "larger"));
   } else if (std::string moved = describe_far_movement(model, assembly); !moved.empty()) {
     warn(std::move(moved));
   }

@@ -4,7 +4,7 @@
 import json
 import unittest
 
-from dynamics_test_case import DynamicsTestCase
+from dynamics_test_case import ROOT, DynamicsTestCase
 
 # A carriage that a motion drives at 5 m/s, with a wheel under it.
 CARRIAGE = """
@@ -44,6 +44,58 @@ spring = { polynomial = [0.0, 2e5] }
 """
 
 
+ROPE = """
+[[forces]]
+name = "rope"
+type = "spring-damper"
+a = "ground.origin"
+b = "carriage.origin"
+free_length = 1.0
+spring = { polynomial = [0.0, 1.0] }
+"""
+CRUISE = """
+[[motions]]
+name = "cruise"
+point = "{point}"
+coordinate = "{coordinate}"
+function = {{ polynomial = [{value}, 0.0] }}
+"""
+
+
+class WholeVehicles(DynamicsTestCase):
+    def balance(self, *motions):
+        """Of the half car of the templates."""
+        templates = ROOT / "dynamics/models/templates"
+        text = (templates / "half_car.toml").read_text(encoding="utf-8") + "".join(motions)
+        (self.folder / "vehicle.toml").write_text(text, encoding="utf-8")
+        run = (templates / "half_car_run.toml").read_text(encoding="utf-8")
+        (self.folder / "bump.toml").write_text(run.replace("half_car.toml", "vehicle.toml"), encoding="utf-8")
+        process = self.run_program("--json", verb="equilibrium")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return json.loads(process.stdout), process.stderr
+
+    def test_a_vehicle_is_shifted_as_a_whole_to_where_its_motion_begins(self):
+        drawn, _ = self.balance()
+        moved, remarks = self.balance(CRUISE.format(point="body.seat", coordinate="x", value=5.1))
+        for name, body in moved["bodies"].items():
+            expected = drawn["bodies"][name]
+            self.assertAlmostEqual(body["x"], expected["x"] + 5.0, delta=1e-3)  # the balance itself moves some
+            self.assertAlmostEqual(body["y"], expected["y"], delta=1e-9)
+        self.assertEqual((moved["warnings"], remarks), ([], ""))
+        self.assertEqual(moved["static_lengths"].keys(), drawn["static_lengths"].keys())
+        for name, spring in moved["static_lengths"].items():
+            self.assertAlmostEqual(spring["free_length"], drawn["static_lengths"][name]["free_length"], delta=1e-8)
+
+    def test_it_is_not_shifted_off_the_road_or_away_from_the_ground(self):
+        rope = ROPE.replace("carriage.origin", "body.center_of_mass")
+        for coordinate, value, tied, shift in (("x", 5.0, "", 5.0), ("x", 5.0, rope, None), ("y", 0.6, "", None)):
+            motion = CRUISE.format(point="body.center_of_mass", coordinate=coordinate, value=value)
+            self.balance(motion + tied)
+            process = self.run_program("--dry-run", "--json", "--quiet")
+            self.assertEqual(process.returncode, 0, process.stderr)
+            self.assertEqual(json.loads(process.stdout)["start"].get("shift"), shift)
+
+
 class AssemblyWarnings(DynamicsTestCase):
     def write_carriage(self, x=0.0, wheel=0.0):
         """x: where the carriage is drawn, whose motion begins at 0; wheel: where its wheel is, from there."""
@@ -61,8 +113,12 @@ class AssemblyWarnings(DynamicsTestCase):
             self.assertEqual(words in process.stderr, told, process.stderr)
 
     def test_a_motion_that_begins_away_from_the_drawing(self):
-        for x, told in ((0.0, ""), (-0.004, ""), (-0.3, "begins 0.3 m above"), (0.3, "begins 0.3 m below")):
+        # A spring to the ground keeps it from being shifted as a whole.
+        larger, smaller = "begins at a value 0.3 m larger", "begins at a value 0.3 m smaller"
+        for x, told in ((0.0, ""), (-0.004, ""), (-0.3, larger), (0.3, smaller)):
             self.write_carriage(x)
+            with (self.folder / "vehicle.toml").open("a", encoding="utf-8") as vehicle:
+                vehicle.write(ROPE)
             for verb in ("run", "modes", "equilibrium"):
                 with self.subTest(x=x, verb=verb):
                     process = self.run_program("--json", "--quiet", verb=verb)

@@ -92,13 +92,16 @@ class JsonOfCommands(DynamicsTestCase):
         of_all = ("bump.toml", "--set", 'vehicle="static.toml"', "--set", 'modes.chassis="auto"', "--set",
                   "mode_choice.tolerance=0.2", "--set", "vehicle.bodies.front_axle.inertia=1e7", *ROAD)  # fmt: skip
         turned = ("--set", "initial.sprung.angular_velocity=0.1")  # which its slide does not allow
+        shifted = ("--set", "vehicle.motions.way.function={ polynomial = [0.5, 5.0] }")
+        slow = ("--set", "vehicle.forces.suspension.damper.coefficient=1e5")
         runs = {
             "run": [("bump.toml", *short, "-o", "r.h5", "--set", "output.size=0.01"), (QUARTER_CAR, *short[:2]),
-                    (QUARTER_CAR, *short[:2], *turned)],
+                    (QUARTER_CAR, *short[:2], *turned), (QUARTER_CAR, *short[:2], *shifted)],
             "run --dry-run": [(QUARTER_CAR, "--set", "output.size=0.01"), (QUARTER_CAR, *turned),
-                              ("bump.toml", *short)],
+                              (QUARTER_CAR, *shifted), ("bump.toml", *short)],
             "equilibrium": [("bump.toml", *short), (QUARTER_CAR,)],
-            "modes": [("bump.toml", *short), ("bump.toml", "--bracket", "--set", 'modes.chassis="certified"')],
+            "modes": [("bump.toml", *short), ("bump.toml", "--bracket", "--set", 'modes.chassis="certified"'),
+                      (QUARTER_CAR, *slow)],
             "response": [("bump.toml", "--set", "response.road.class=C"), (QUARTER_CAR,)],
             "select-modes": [],
         }
