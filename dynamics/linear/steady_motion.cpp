@@ -94,9 +94,15 @@ std::optional<SteadyMotion> find_steady_motion(const Model& model, const Eigen::
   rigid.col(1) = SteadyMotion{.velocity = {0.0, 1.0}}.calc_velocity(model, q);
   rigid.col(2) = SteadyMotion{.omega = 1.0}.calc_velocity(model, q);
   const Eigen::MatrixXd allowed = terms.jacobian().dense() * rigid;
-  const Eigen::Vector3d found = support::solve_least_squares(allowed, -phi_t);
-  if (!((allowed * found + phi_t).norm() <= kAllowed * phi_t.norm())) return std::nullopt;
-  return SteadyMotion{.velocity = found.head<2>(), .omega = found[2]};
+  // What a translation can do is not left to a rotation, which the forces of a road do not follow.
+  for (const Eigen::Index num_motions : {2, 3}) {
+    const Eigen::MatrixXd tried = allowed.leftCols(num_motions);
+    Eigen::Vector3d found = Eigen::Vector3d::Zero();
+    found.head(num_motions) = support::solve_least_squares(tried, -phi_t);
+    if ((tried * found.head(num_motions) + phi_t).norm() <= kAllowed * phi_t.norm())
+      return SteadyMotion{.velocity = found.head<2>(), .omega = found[2]};
+  }
+  return std::nullopt;
 }
 
 bool is_steady(const Model& model, const SteadyMotion& motion, const Eigen::VectorXd& q) {

@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from verification_case import VerificationCase, run_program
+from verification_case import ROOT, VerificationCase, run_program
 
 HUB = """
 name = "turning"
@@ -140,6 +140,20 @@ class Steady(VerificationCase):
             self.assertNotIn("tatic equilibrium", texts[verb])
             self.assertRegex(texts[verb], "[Ss]teady motion")
         self.assertNotIn("modes are missing", texts["run"])
+
+    def test_a_vehicle_at_constant_speed_is_in_the_balance_at_rest(self):
+        # The motion of a point along x alone could be one about a far centre, too, which the road does not allow.
+        templates = ROOT / "dynamics/models/templates"
+        vehicle = (templates / "half_car.toml").read_text(encoding="utf-8") + (
+            '[[motions]]\nname = "cruise"\npoint = "body.center_of_mass"\ncoordinate = "x"\n'
+            "function = { polynomial = [0.0, 8.33] }\n"
+        )
+        found = []
+        for start in ("equilibrium", "steady"):
+            run = self.write_model(vehicle, f'duration = 1.0\nspeed = 8.33\nstart = "{start}"\n')
+            found.append(self.program("equilibrium", run)["bodies"])
+        for name, body in found[0].items():
+            self.assert_close(list(found[1][name].values()), list(body.values()), absolute=1e-9)
 
     def test_motion_that_is_not_steady_is_refused(self):
         spring = ('[[forces]]\nname = "rope"\ntype = "spring-damper"\na = "ground.origin"\nb = "bar.origin"\n'
