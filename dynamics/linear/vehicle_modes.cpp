@@ -209,7 +209,9 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
       mode.damped_frequency_hz = s.imag() / (2.0 * pi);
       mode.damping_ratio = -s.real() / std::abs(s);
     } else if (!mode.is_rigid_body) {
-      mode.damping_ratio = -s.real() / one.omega;
+      const double decay = -s.real();
+      mode.decay_rate = decay;
+      if (decay != 0.0) mode.damping_ratio = 0.5 * (decay / one.omega + one.omega / decay);
     }
     modes.push_back(std::move(mode));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "dynamics/linear/equilibrium.h"
@@ -21,7 +22,9 @@ struct VehicleMode {
   double undamped_frequency_hz = 0.0;  ///< 0 for a rigid-body mode
   double largest_frequency_hz = 0.0;   ///< the undamped one at most, with the rounding of the stiffness
   double damped_frequency_hz = 0.0;    ///< 0 where the mode does not oscillate
-  double damping_ratio = 0.0;  ///< −Re s/|s|; where the mode does not oscillate, −s/ω of the larger s
+  double damping_ratio = 0.0;  ///< ζ (linear, eqs. 3, 13): at least 1 where a damped mode does not oscillate
+  /// −s of a mode with stiffness that does not oscillate: it decays by e in the inverse of this time [1/s].
+  std::optional<double> decay_rate;
   bool is_rigid_body = false;  ///< no element resists it at rest; internal states may make it oscillate
   Eigen::VectorXd shape;       ///< nq, undamped, mass-normalised
   std::vector<Participant> participants;  ///< the bodies that move, that with the most kinetic energy first

@@ -132,7 +132,11 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
   int number = 0;
   for (const VehicleMode& mode : modes) {
     ++number;
-    const std::string movers = describe_moving_bodies(model, vehicle, mode);
+    std::string movers = describe_moving_bodies(model, vehicle, mode);
+    if (mode.decay_rate) {
+      movers = fmt::format("does not oscillate, {} at {:.3g} 1/s: {}",
+                           *mode.decay_rate < 0.0 ? "grows" : "decays", std::abs(*mode.decay_rate), movers);
+    }
     if (mode.is_rigid_body && mode.damped_frequency_hz == 0.0) {
       table.add_row({fmt::format("{}", number), "0", "0", "", "rigid-body mode: " + movers});
     } else {
@@ -180,6 +184,7 @@ Json make_modes_json(const Model& model, const Vehicle& vehicle, const std::vect
                     {"damping_ratio", mode.damping_ratio},
                     {"rigid_body", mode.is_rigid_body},
                     {"participants", describe_moving_bodies(model, vehicle, mode)}});
+    if (mode.decay_rate) list.back()["decay_rate"] = *mode.decay_rate;
     if (bracket != nullptr && bracket->may_be_in_band(modes, list.size() - 1)) {
       const auto k = static_cast<Eigen::Index>(list.size()) - 1;
       list.back()["bracket"] = {bracket->lower_hz[k], bracket->upper_hz[k]};

@@ -178,5 +178,37 @@ class Chains(VerificationCase):
                 self.assert_close(sum(decay), 0.5 * np.sum(np.diag(damping) / masses), relative=1e-6)
 
 
+class Overdamped(VerificationCase):
+    def test_a_mode_that_does_not_oscillate_is_told_with_its_decay(self):
+        # A disc of 2 kg on 200 N/m and 100 N·s/m along x: ω = 10 1/s, ζ = 2.5, and s² + 50 s + 100 = 0.
+        vehicle = """
+name = "slow disc"
+gravity = [0.0, 0.0]
+[bodies.disc]
+mass = 2.0
+inertia = 1.0
+position = [0.0, 0.0]
+[[joints]]
+name = "rail"
+type = "translational"
+a = "ground.origin"
+b = "disc.origin"
+axis = [1.0, 0.0]
+[[forces]]
+name = "mount"
+type = "bushing"
+a = "ground.origin"
+b = "disc.origin"
+x = { spring = { polynomial = [0.0, 200.0] }, damper = { coefficient = 100.0 } }
+"""
+        run = self.write_model(vehicle, "duration = 0.1\n")
+        (mode,) = self.program("modes", run)["modes"]
+        self.assertEqual(mode["damped_frequency"], 0.0)
+        self.assert_close(mode["damping_ratio"], 2.5, relative=1e-6)
+        self.assert_close(mode["decay_rate"], 25.0 + math.sqrt(525.0), relative=1e-6)
+        table = run_program([os.environ["SPRUNG_DYNAMICS"], "modes", "run.toml"], cwd=self.folder, check=True).stdout
+        self.assertIn("does not oscillate, decays at 47.9 1/s: disc", table)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -94,7 +94,9 @@ TEST_CASE("An overdamped mode keeps its undamped frequency and does not oscillat
   REQUIRE(modes.size() == 1);
   CHECK(modes[0].undamped_frequency_hz == Approx(kOmega / (2.0 * pi)).epsilon(1e-9));
   CHECK(modes[0].damped_frequency_hz == 0.0);
-  CHECK(modes[0].damping_ratio > 1.0);
+  CHECK(modes[0].damping_ratio == Approx(5.0).epsilon(1e-8));
+  REQUIRE(modes[0].decay_rate);
+  CHECK(*modes[0].decay_rate == Approx(kOmega * (5.0 + std::sqrt(24.0))).epsilon(1e-8));
 }
 
 TEST_CASE("A hanging pendulum swings with the frequency of the equivalent length", "[analysis]") {
