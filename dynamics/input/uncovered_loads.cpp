@@ -1,9 +1,10 @@
 #include "dynamics/input/uncovered_loads.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -28,14 +29,44 @@ std::vector<bool> find_turned_markers(const Model& model) {
   return turned;
 }
 
-// The first freedom of a loaded point that is not in the interface.
-std::optional<int> find_uncovered(const reduce::Superelement& superelement, Eigen::Index node, bool turned) {
+FreedomSet list_interface(const reduce::Superelement& superelement) {
   FreedomSet freedoms;
   for (const reduce::InterfaceError& one : superelement.certificate->interface)
     freedoms.insert({superelement.points[static_cast<std::size_t>(one.point)].node, one.freedom});
+  return freedoms;
+}
+
+// The freedoms of a loaded point that are not in the interface.
+std::vector<int> find_uncovered(const reduce::Superelement& superelement, Eigen::Index node, bool turned) {
+  const FreedomSet interface = list_interface(superelement);
+  std::vector<int> freedoms;
   for (int freedom = 0; freedom < (turned ? 3 : 2); ++freedom)
-    if (!freedoms.contains({static_cast<int>(node), freedom})) return freedom;
-  return {};
+    if (!interface.contains({static_cast<int>(node), freedom})) freedoms.push_back(freedom);
+  return freedoms;
+}
+
+// What [interface] of the design needs, as `front = "xyr", rear = "xy"`: for each node with loads its
+// freedoms there and those that are missing.
+std::string list_needed(const reduce::Superelement& superelement, const std::vector<UncoveredLoad>& loads) {
+  const FreedomSet interface = list_interface(superelement);
+  std::map<int, FreedomSet> needed;
+  for (const UncoveredLoad& load : loads) {
+    const auto node = static_cast<int>(load.node);
+    for (const int freedom : load.freedoms) needed[node].insert({node, freedom});
+    for (int freedom = 0; freedom < 3; ++freedom)
+      if (interface.contains({node, freedom})) needed[node].insert({node, freedom});
+  }
+  std::vector<std::string> entries;
+  for (const auto& [node, freedoms] : needed) {
+    const auto named = std::find_if(superelement.points.begin(), superelement.points.end(),
+                                    [node = node](const auto& point) { return point.node == node; });
+    std::string letters;
+    for (const auto& one : freedoms) letters += "xyr"[one.second];
+    entries.push_back(named == superelement.points.end()
+                          ? fmt::format("a point at the body's frame, with \"{}\"", letters)
+                          : fmt::format("{} = \"{}\"", named->name, letters));
+  }
+  return fmt::format("{}", fmt::join(entries, ", "));
 }
 
 }  // namespace
@@ -54,29 +85,37 @@ std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Mo
     const bool is_fixed = points[i].kind == VehiclePoint::Kind::kFixed;
     const Eigen::Index node = is_fixed ? reduce::find_reference_node(*superelement) : points[i].node;
     const bool turned = carries_torque[i] || !points[i].offset.isZero(0.0);
-    if (const std::optional<int> freedom = find_uncovered(*superelement, node, turned))
-      loads.push_back({.body = points[i].body, .point = points[i].name, .node = node, .freedom = *freedom});
+    std::vector<int> freedoms = find_uncovered(*superelement, node, turned);
+    if (freedoms.empty()) continue;
+    loads.push_back(
+        {.body = points[i].body, .point = points[i].name, .node = node, .freedoms = std::move(freedoms)});
   }
   return loads;
 }
 
 std::string UncoveredLoad::describe() const {
   return fmt::format("{} takes loads, but '{}' is not in the interface of its superelement", point,
-                     reduce::freedom_name(freedom));
+                     reduce::freedom_name(freedoms.front()));
 }
 
 std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Model& model) {
+  std::map<int, std::vector<UncoveredLoad>> by_body;
+  for (UncoveredLoad& load : find_uncovered_loads(vehicle, model))
+    by_body[load.body].push_back(std::move(load));
   std::vector<std::string> remarks;
-  std::set<int> named;  // bodies
-  for (const UncoveredLoad& load : find_uncovered_loads(vehicle, model)) {
-    const BodyDescription& body = vehicle.bodies[static_cast<std::size_t>(load.body)];
-    const reduce::Certificate& certificate = *vehicle.superelement_of(body)->certificate;
-    const bool holds_all = certificate.cutoff_hz == 0.0;
-    if (holds_all || !certificate.is_bounded() || !named.insert(load.body).second) continue;
+  for (const auto& [index, loads] : by_body) {
+    const BodyDescription& body = vehicle.bodies[static_cast<std::size_t>(index)];
+    const reduce::Superelement& superelement = *vehicle.superelement_of(body);
+    const bool holds_all = superelement.certificate->cutoff_hz == 0.0;
+    if (holds_all || !superelement.certificate->is_bounded()) continue;
+    std::vector<std::string> others;
+    for (std::size_t i = 1; i < loads.size(); ++i) others.push_back(loads[i].point);
     remarks.push_back(fmt::format(
-        "{}: {}: the basis was not made for them, and its certified error says nothing of them; name the "
-        "point under [interface] in the design",
-        support::format_place(body.location), load.describe()));
+        "{}: {}{}: the basis was not made for such loads, and its certified error says nothing of them; "
+        "[interface] of the design also needs {}",
+        support::format_place(body.location), loads.front().describe(),
+        others.empty() ? "" : fmt::format("; likewise {}", fmt::join(others, ", ")),
+        list_needed(superelement, loads)));
   }
   return remarks;
 }

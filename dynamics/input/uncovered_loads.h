@@ -12,9 +12,9 @@ namespace sprung::dynamics {
 /// superelement. The certificate says nothing about the body's answer to such a load.
 struct UncoveredLoad {
   int body = 0;
-  std::string point;      ///< "body.point"
-  Eigen::Index node = 0;  ///< of the superelement, 0-based
-  int freedom = 0;        ///< 0 … 2: x, y, rotation
+  std::string point;          ///< "body.point"
+  Eigen::Index node = 0;      ///< of the superelement, 0-based
+  std::vector<int> freedoms;  ///< ascending, 0 … 2: x, y, rotation; at least one
 
   /// "body.point takes loads, but 'x' is not in the interface of its superelement"
   std::string describe() const;
@@ -24,8 +24,8 @@ struct UncoveredLoad {
 /// @param model  of the vehicle
 std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Model& model);
 
-/// A remark for each body with such loads whose certificate has a bound, with the body's place. None where
-/// the basis holds all motions of the body.
+/// A remark for each body with such loads whose certificate has a bound, with the body's place and what its
+/// design lacks. None where the basis holds all motions of the body.
 /// Checked by tests/verification/bound_of_run_test.py
 std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Model& model);
 

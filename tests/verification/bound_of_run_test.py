@@ -192,6 +192,17 @@ y = {{ spring = {{ polynomial = [0.0, 1e6] }} }}
                     told = [one["text"] for one in warnings if f"chassis.{point} takes loads, but 'x'" in one["text"]]
                     self.assertEqual(bool(told), warns, warnings)
 
+    def test_all_points_and_what_the_interface_needs_of_them_are_told_at_once(self):
+        self.build(good=("= 60.0", "= 60.0"))
+        more = PUSHED[PUSHED.index("[[forces]]"):].replace('"push"', '"twist"').replace("{point}", "rear_spring")
+        vehicle = (PUSHED + more + "torque = 50.0\n").format(superelement="good", point="front_end")
+        warnings = self.program("run", self.write_model(vehicle, PUSHED_RUN), superelements=self.folder)["warnings"]
+        (text,) = (one["text"] for one in warnings if "takes loads" in one["text"])
+        self.assertIn("chassis.front_end takes loads, but 'x' is not", text)
+        self.assertIn("; likewise chassis.rear_spring: ", text)
+        needed = re.search(r"\[interface\] of the design also needs (.*)$", text)[1]
+        self.assertEqual(sorted(needed.split(", ")), ['front_end = "xy"', 'rear_spring = "xyr"'])
+
     def test_a_torque_that_is_applied_is_a_load_as_well(self):
         self.build(good=("= 60.0", "= 60.0"))
         beat = "{ harmonic = { amplitude = 1.0, frequency = 2.0 } }"
