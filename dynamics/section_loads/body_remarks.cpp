@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -16,14 +18,18 @@ constexpr double kUnboundedDeflection = 10.0;  // likewise
 constexpr double kLargeAxialEffect = 0.03;     // work of axial forces in bending over that of the stiffness
 
 // What a body can have besides its modes.
-std::string advise_on_basis(const BodySections& body) {
-  if (!body.has_whole_basis()) {
-    return body.is_certified()
-               ? fmt::format("take more modes, modes.{} = \"certified\" takes all", body.name())
-               : "take more modes or a certified basis";
+// @param of_basis  share that all vectors of its superelement would miss
+std::string advise_on_basis(const BodySections& body, double of_basis) {
+  const char* const other_basis = body.is_certified()
+                                      ? "reduce it with a smaller tolerance, or up to a higher frequency"
+                                      : "reduce it to a certified basis, with more vectors";
+  if (body.has_whole_basis()) return other_basis;
+  if (of_basis > kTooMuchMissing) {
+    return fmt::format("all vectors of its superelement would miss {:.3g} %, so {}", 100.0 * of_basis,
+                       other_basis);
   }
-  return body.is_certified() ? "reduce it with a smaller tolerance, or up to a higher frequency"
-                             : "reduce it to a certified basis, with more vectors";
+  return body.is_certified() ? fmt::format("take more modes, modes.{} = \"certified\" takes all", body.name())
+                             : "take more modes or a certified basis";
 }
 
 }  // namespace
@@ -35,8 +41,10 @@ std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics,
     const BodySections& body = statistics.sections().bodies()[b];
     const SectionPeaks& peaks = statistics.peaks()[b];
     std::vector<std::string> parts;
+    double of_basis = 0.0;
     if (judged.points && peaks.missing_deflection_share() > kTooMuchMissing) {
       const SectionPeak& peak = peaks.missing_deflection;
+      of_basis = peaks.basis_deflection_share();
       parts.push_back(fmt::format("{:.3g} % of the largest deflection (at {} along {}, t = {:.3g} s)",
                                   100.0 * peaks.missing_deflection_share(),
                                   body.points()[static_cast<std::size_t>(peak.station / 3)],
@@ -44,6 +52,7 @@ std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics,
     }
     if (judged.moments && peaks.missing_moment_share() > kTooMuchMissing) {
       const Eigen::RowVector2d place = body.positions().row(peaks.missing_moment.station);
+      of_basis = std::max(of_basis, peaks.basis_moment_share());
       parts.push_back(
           fmt::format("{:.3g} % of the largest bending moment (at x = {:.4g} m, y = {:.4g} m, t = {:.3g} s)",
                       100.0 * peaks.missing_moment_share(), place.x(), place.y(), peaks.missing_moment.time));
@@ -51,7 +60,7 @@ std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics,
     if (parts.empty()) continue;
     remarks.push_back(
         {body.name(), fmt::format("{}: its modes miss {}; {}, and take moments from the loads", body.name(),
-                                  fmt::join(parts, " and "), advise_on_basis(body))});
+                                  fmt::join(parts, " and "), advise_on_basis(body, of_basis))});
   }
   return remarks;
 }

@@ -56,52 +56,71 @@ Eigen::MatrixXd BodySections::combine(const reduce::UnitLoads& unit, const std::
   return combined;
 }
 
+// The mean moment of each element of vectors, elements×vectors. @param resultants  3 stations × vectors
+Eigen::MatrixXd BodySections::average_moments(const Eigen::MatrixXd& resultants) const {
+  Eigen::MatrixXd moments(positions_.rows() / 2, resultants.cols());
+  for (Eigen::Index e = 0; e < moments.rows(); ++e)
+    moments.row(e) = 0.5 * (resultants.row(6 * e + 2) + resultants.row(6 * e + 5));
+  return moments;
+}
+
+// Those of the named points, 3 points × vectors.
+Eigen::MatrixXd BodySections::pick_deflections(const reduce::Superelement& superelement,
+                                               const std::vector<int>& columns) const {
+  Eigen::MatrixXd picked(3 * static_cast<Eigen::Index>(superelement.points.size()),
+                         static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index p = 0; 3 * p < picked.rows(); ++p) {
+    const int node = superelement.points[static_cast<std::size_t>(p)].node;
+    picked.middleRows<3>(3 * p) = superelement.shapes(Eigen::seqN(3 * node, 3), columns);
+  }
+  return picked;
+}
+
 void BodySections::prepare_missing(const Body& body, const reduce::Superelement& superelement,
                                    const std::vector<int>& columns) {
   const Eigen::Index num_elements = superelement.elements.cols();
-  Eigen::MatrixXd by_load(num_elements, by_load_.cols()), by_mode(num_elements, num_modes_);
+  Eigen::MatrixXd by_load = average_moments(by_load_);
   for (Eigen::Index e = 0; e < num_elements; ++e) {
     const double length = (positions_.row(2 * e + 1) - positions_.row(2 * e)).norm();
-    by_load.row(e) = 0.5 * (by_load_.row(6 * e + 2) + by_load_.row(6 * e + 5)) -
-                     length / 12.0 * (by_load_.row(6 * e + 1) - by_load_.row(6 * e + 4));
-    by_mode.row(e) = 0.5 * (by_mode_.row(6 * e + 2) + by_mode_.row(6 * e + 5));
+    by_load.row(e) -= length / 12.0 * (by_load_.row(6 * e + 1) - by_load_.row(6 * e + 4));
   }
-  missing_moment_by_ = support::join_columns(by_load, -by_mode);
+  missing_moment_by_ = support::join_columns(by_load, -average_moments(by_mode_));
   delay_ = body.damping.diagonal().cwiseQuotient(body.stiffness.diagonal());
-  if (body.stiffening) {
-    amplitude_by_load_ =
-        support::solve_positive_definite(body.stiffness, calc_modal_load(body, superelement, columns));
-  }
+  if (body.stiffening) amplitude_by_load_ = calc_amplitudes(superelement, columns, columns);
   amplitudes_ = Eigen::VectorXd::Zero(num_modes_);
-  missing_moment_ = Eigen::VectorXd::Zero(num_elements);
-  const auto num_points = static_cast<Eigen::Index>(superelement.points.size());
-  deflection_by_mode_.resize(3 * num_points, num_modes_);
-  for (Eigen::Index p = 0; p < num_points; ++p) {
-    const reduce::NamedPoint& point = superelement.points[static_cast<std::size_t>(p)];
-    points_.push_back(name_ + "." + point.name);
-    for (int k = 0; k < num_modes_; ++k) {
-      deflection_by_mode_.block<3, 1>(3 * p, k) =
-          superelement.shapes.block<3, 1>(3 * point.node, columns[static_cast<std::size_t>(k)]);
-    }
-  }
+  missing_moment_ = basis_missing_moment_ = Eigen::VectorXd::Zero(num_elements);
+  for (const reduce::NamedPoint& point : superelement.points) points_.push_back(name_ + "." + point.name);
+  deflection_by_mode_ = pick_deflections(superelement, columns);
   missing_deflection_by_ =
       support::join_columns(combine(*superelement.point_deflections, columns), -deflection_by_mode_);
-  deflections_ = missing_deflections_ = Eigen::Matrix3Xd::Zero(3, num_points);
+  deflections_ = missing_deflections_ = basis_missing_deflections_ =
+      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(superelement.points.size()));
+  if (!has_whole_basis_) prepare_left_out(superelement, columns);
 }
 
-// Loads on the modes (section_loads, eq. 5), modes × columns of by_load_.
-Eigen::MatrixXd BodySections::calc_modal_load(const Body& body, const reduce::Superelement& superelement,
+void BodySections::prepare_left_out(const reduce::Superelement& superelement,
+                                    const std::vector<int>& columns) {
+  std::vector<int> others;
+  for (int vector = 0; vector < superelement.num_modes(); ++vector)
+    if (!std::binary_search(columns.begin(), columns.end(), vector)) others.push_back(vector);
+  const Eigen::MatrixXd amplitudes = calc_amplitudes(superelement, others, columns);
+  left_out_moment_by_ = average_moments(superelement.resultants(Eigen::all, others)) * amplitudes;
+  left_out_deflection_by_ = pick_deflections(superelement, others) * amplitudes;
+}
+
+// Amplitudes of vectors at rest (section_loads, eq. 5), vectors × columns of by_load_.
+// @param columns  the modes
+Eigen::MatrixXd BodySections::calc_amplitudes(const reduce::Superelement& superelement,
+                                              const std::vector<int>& vectors,
                                               const std::vector<int>& columns) const {
-  const auto num_points = static_cast<Eigen::Index>(superelement.points.size());
-  Eigen::MatrixXd of_points(num_modes_, 3 * num_points), of_frame(num_modes_, 4);
-  for (Eigen::Index p = 0; p < num_points; ++p) {
-    const int node = superelement.points[static_cast<std::size_t>(p)].node;
-    of_points.middleCols<3>(3 * p) = superelement.shapes(Eigen::seqN(3 * node, 3), columns).transpose();
-  }
-  of_frame << -body.P.transpose(), -body.c.transpose(), body.d.transpose();
-  Eigen::MatrixXd load(num_modes_, by_load_.cols());
-  load << loads_.combine(of_points, of_frame), -body.M_ff, body.B;
-  return load;
+  const auto num_vectors = static_cast<Eigen::Index>(vectors.size());
+  const reduce::InertiaInvariants& inertia = superelement.inertia;
+  const Eigen::MatrixXd of_points = pick_deflections(superelement, vectors).transpose();
+  Eigen::MatrixXd of_frame(num_vectors, 4), load(num_vectors, by_load_.cols());
+  of_frame << -inertia.P(Eigen::all, vectors).transpose(), -inertia.c(vectors).transpose(),
+      inertia.d(vectors).transpose();
+  load << loads_.combine(of_points, of_frame), -inertia.M_ff(vectors, columns), inertia.B(vectors, columns);
+  return support::solve_positive_definite(superelement.stiffness(vectors, vectors), load);
 }
 
 void BodySections::update(std::span<const Wrench> loads, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -127,6 +146,15 @@ void BodySections::update(std::span<const Wrench> loads, const Eigen::VectorXd& 
   support::multiply(missing_deflection_by_, causes_.data(), missing_deflections_.data());
   support::multiply(deflection_by_mode_, eta.data(), deflections_.data());
   deflections_ += missing_deflections_;
+  if (left_out_moment_by_.size() > 0) {
+    support::multiply(left_out_moment_by_, causes_.data(), basis_missing_moment_.data());
+    support::multiply(left_out_deflection_by_, causes_.data(), basis_missing_deflections_.data());
+    basis_missing_moment_ = missing_moment_ - basis_missing_moment_;
+    basis_missing_deflections_ = missing_deflections_ - basis_missing_deflections_;
+  } else {
+    basis_missing_moment_ = missing_moment_;
+    basis_missing_deflections_ = missing_deflections_;
+  }
 }
 
 }  // namespace sprung::dynamics

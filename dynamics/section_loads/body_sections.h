@@ -55,13 +55,20 @@ class BodySections {
   /// (section_loads, eqs. 4, 5). Rows x [m], y [m], rotation [rad], 3×points
   const Eigen::Matrix3Xd& deflections() const { return deflections_; }
   const Eigen::Matrix3Xd& missing_deflections() const { return missing_deflections_; }
+  /// What all vectors of the superelement would lack of both under the same loads (section_loads, eq. 9).
+  const Eigen::VectorXd& basis_missing_moment() const { return basis_missing_moment_; }
+  const Eigen::Matrix3Xd& basis_missing_deflections() const { return basis_missing_deflections_; }
 
  private:
   Eigen::MatrixXd combine(const reduce::UnitLoads& unit, const std::vector<int>& columns) const;
   void prepare_missing(const Body& body, const reduce::Superelement& superelement,
                        const std::vector<int>& columns);
-  Eigen::MatrixXd calc_modal_load(const Body& body, const reduce::Superelement& superelement,
+  void prepare_left_out(const reduce::Superelement& superelement, const std::vector<int>& columns);
+  Eigen::MatrixXd calc_amplitudes(const reduce::Superelement& superelement, const std::vector<int>& vectors,
                                   const std::vector<int>& columns) const;
+  Eigen::MatrixXd average_moments(const Eigen::MatrixXd& resultants) const;
+  Eigen::MatrixXd pick_deflections(const reduce::Superelement& superelement,
+                                   const std::vector<int>& columns) const;
 
   std::string name_;
   std::size_t body_;
@@ -85,6 +92,10 @@ class BodySections {
   Eigen::MatrixXd deflection_by_mode_;     // 3 points × modes
   Eigen::MatrixXd missing_deflection_by_;  // 3 points × causes_
   Eigen::Matrix3Xd deflections_, missing_deflections_;
+  // Of vectors that are no modes, by causes_ without amplitudes; none where all vectors are modes
+  Eigen::MatrixXd left_out_moment_by_, left_out_deflection_by_;
+  Eigen::VectorXd basis_missing_moment_;
+  Eigen::Matrix3Xd basis_missing_deflections_;
 };
 
 }  // namespace sprung::dynamics

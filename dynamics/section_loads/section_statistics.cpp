@@ -39,6 +39,8 @@ void add_deflections(const BodySections& body, double time, SectionPeaks& peaks)
       const double missing = body.missing_deflections()(direction, p);
       if (std::abs(missing) > std::abs(peaks.missing_deflection.value))
         peaks.missing_deflection = {missing, static_cast<int>(3 * p + direction), time};
+      peaks.basis_deflection =
+          std::max(peaks.basis_deflection, std::abs(body.basis_missing_deflections()(direction, p)));
     }
   }
 }
@@ -53,6 +55,14 @@ double SectionPeaks::missing_moment_share() const {
 double SectionPeaks::missing_deflection_share() const {
   if (std::abs(missing_deflection.value) <= kRoundingShare * length) return 0.0;
   return calc_share(missing_deflection, deflection);
+}
+
+double SectionPeaks::basis_moment_share() const {
+  return calc_share({.value = basis_moment}, get_whole(*this)[kMoment]);
+}
+
+double SectionPeaks::basis_deflection_share() const {
+  return calc_share({.value = basis_deflection}, deflection);
 }
 
 double SectionPeaks::rounding_moment() const {
@@ -82,6 +92,8 @@ void SectionStatistics::add(double time) {
     const double size = body.missing_moment().cwiseAbs().maxCoeff(&element);
     if (size > std::abs(missing.value))
       missing = {body.missing_moment()[element], static_cast<int>(2 * element), time};
+    peaks_[b].basis_moment =
+        std::max(peaks_[b].basis_moment, body.basis_missing_moment().cwiseAbs().maxCoeff());
     add_deflections(body, time, peaks_[b]);
   }
 }

@@ -28,6 +28,8 @@ struct SectionPeaks {
   /// Of the named points: the largest deflection; and what the modes lack of a deflection along x or y
   /// (section_loads, eq. 4). The station is 3 × point + direction [m].
   SectionPeak deflection, missing_deflection;
+  /// Largest values of what all vectors of the superelement would lack of both (section_loads, eq. 9).
+  double basis_moment = 0.0, basis_deflection = 0.0;
   double length = 0.0;  ///< of the body [m]
   double weight = 0.0;  ///< of the body [N]
 
@@ -35,6 +37,9 @@ struct SectionPeaks {
   /// 0 where all are 0, or rounding errors beside the body's weight and its axial and shear forces.
   double missing_moment_share() const;
   double missing_deflection_share() const;
+  /// The same shares of what all vectors of the superelement would lack.
+  double basis_moment_share() const;
+  double basis_deflection_share() const;
   /// Moments up to this one are rounding errors beside weight, axial and shear forces of the body [N·m].
   double rounding_moment() const;
 };
@@ -64,6 +69,8 @@ class SectionStatistics {
       transfer_peak(peaks.missing_moment);
       transfer_peak(peaks.deflection);
       transfer_peak(peaks.missing_deflection);
+      bytes.transfer(peaks.basis_moment);
+      bytes.transfer(peaks.basis_deflection);
     }
   }
 
