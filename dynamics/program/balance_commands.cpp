@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "dynamics/bracket/axial_change.h"
 #include "dynamics/bracket/soft_twin.h"
 #include "dynamics/linear/frequency_bounds.h"
 #include "dynamics/linear/linearisation.h"
@@ -19,6 +20,7 @@
 #include "dynamics/statistics/run_warnings.h"
 #include "dynamics/system/held_modes.h"
 #include "tools/support/errors/input_error.h"
+#include "tools/support/errors/numerical_error.h"
 #include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
 
@@ -179,6 +181,44 @@ FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarnin
       .highest_hz = twin.highest_hz};
 }
 
+// What axial forces at rest, which the brackets leave out, change in the frequencies, where that is more than
+// the width of a bracket and than a thousandth.
+void warn_of_axial_forces(const PreparedRun& prepared, const std::vector<VehicleMode>& modes,
+                          const FrequencyBracket& bracket, std::vector<RunWarning>& warnings) {
+  constexpr double kNoticeable = 1e-3;
+  const auto warn = [&](std::string text) {
+    warnings.push_back({"modes", {"frequencies"}, std::move(text)});
+  };
+  std::optional<Eigen::VectorXd> stiffened;
+  try {
+    stiffened = calc_stiffened_frequencies(prepared.vehicle, prepared.available,
+                                           {prepared.level_road.get(), prepared.vehicle.direction, 0.0},
+                                           prepared.equilibrium->q);
+  } catch (const support::NumericalError&) {
+    warn(
+        "the brackets leave out axial forces at rest, with which no stable equilibrium was found: set "
+        "stiffening of the flexible bodies");
+  }
+  if (!stiffened) return;
+  double largest = 0.0;
+  std::size_t worst = 0;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    if (!bracket.may_be_in_band(modes, k)) continue;
+    const auto i = static_cast<Eigen::Index>(k);
+    const double change = std::abs((*stiffened)[i] / modes[k].undamped_frequency_hz - 1.0);
+    const double width = bracket.upper_hz[i] / bracket.lower_hz[i] - 1.0;
+    if (change <= std::max({width, kNoticeable, largest})) continue;
+    largest = change;
+    worst = k;
+  }
+  if (largest == 0.0) return;
+  warn(fmt::format(
+      "the brackets leave out axial forces at rest, which change frequencies by up to {:.2g} % (mode {}, to "
+      "{:.5g} Hz), more than the bracket is wide: take the frequencies with stiffening of the flexible "
+      "bodies",
+      100.0 * largest, worst + 1, (*stiffened)[static_cast<Eigen::Index>(worst)]));
+}
+
 }  // namespace
 
 int equilibrium_command(const RunRequest& request, bool json) {
@@ -216,7 +256,10 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   warn_of_forces_at_rest(prepared, kinks, warnings);
   warn_of_lost_damping(prepared.vehicle, model, modes, warnings);
   std::optional<FrequencyBracket> bracket;
-  if (output.bracket) bracket = calc_bracket(prepared, warnings);
+  if (output.bracket) {
+    bracket = calc_bracket(prepared, warnings);
+    warn_of_axial_forces(prepared, modes, *bracket, warnings);
+  }
   if (output.json) {
     support::print(request.streams.out, "{}",
                    format_report_json(request, "modes", prepared, warnings,

@@ -3,6 +3,7 @@
 none where forces are not conservative."""
 
 import os
+import re
 import unittest
 
 import numpy as np
@@ -155,6 +156,25 @@ class Brackets(VerificationCase):
                     with self.subTest(reference=name, rate=rate, mode=k + 1):
                         self.assertLessEqual(lower, (1.0 + ROUNDING) * truth[k])
                         self.assertGreaterEqual(upper, (1.0 - ROUNDING) * truth[k])
+
+    def test_axial_forces_that_change_frequencies_by_more_are_warned_of(self):
+        # A twentieth of the Euler load of the pinned beam lowers its first bending by about a fortieth.
+        (self.folder / "m.toml").write_text(ANTENNA.format(reference="m"), encoding="utf-8")
+        run_program([os.environ["SPRUNG_REDUCE"], "build", "m.toml"], cwd=self.folder, check=True)
+        push = '[[forces]]\nname = "push"\ntype = "applied"\npoint = "frame.b"\nforce = [-5e4, 0.0]\n'
+        for load, told in (("", False), (push, True)):
+            vehicle = ON_SPRINGS.format(name="m", x=2.0, y=0.0, rate=1e9) + load
+            run = self.write_model(vehicle, "duration = 1.0\n[modes]\nframe = \"all\"\n")
+            found = self.program("modes", run, "--bracket", superelements=self.folder)
+            texts = [one["text"] for one in found["warnings"] if "brackets leave out axial forces" in one["text"]]
+            self.assertEqual(len(texts), int(told), found["warnings"])
+        percent, mode, frequency = re.search(r"by up to (\S+) % \(mode (\d+), to (\S+) Hz\)", texts[0]).groups()
+        words = ("--set", "stiffening.frame=true")
+        stiffened = self.program("modes", run, *words, superelements=self.folder)["modes"][int(mode) - 1]
+        self.assert_close(float(frequency), stiffened["undamped_frequency"], relative=1e-4)
+        change = stiffened["undamped_frequency"] / found["modes"][int(mode) - 1]["undamped_frequency"] - 1.0
+        self.assert_close(float(percent), -100.0 * change, relative=0.05)
+        self.assertLess(change, -0.01)
 
     def find_held_freedoms(self):
         """Indices of x and y at the beam's left end and of y at its right end, in the matrices of the frame."""
