@@ -32,7 +32,7 @@ constexpr double kHighestBump = 5.0;                     // m
 constexpr double kRoughestRoad = 1.0;                    // m³ at 0.1 1/m: four times that of class H
 constexpr double kLargestRms = 1.0;                      // m, of a random road
 constexpr double kStrongestGravity = 1000.0;             // m/s², more than 100 g: a centrifuge has less
-constexpr double kLargestTurn = 2.0 * std::numbers::pi;  // rad, of a body as drawn
+constexpr double kLargestTurn = 2.0 * std::numbers::pi;  // rad, of a body or a bushing as drawn
 
 std::string remark_at(const support::SourceLocation& location, const std::string& text) {
   return fmt::format("{}: {}", support::format_place(location), text);
@@ -88,6 +88,8 @@ void remark_on_force(const ForceDescription& force, std::vector<std::string>& re
   } else if (const auto* leaf = std::get_if<LeafSpring::Parameters>(&force.parameters)) {
     check("free_length", leaf->free_length, kLongest, "m", kLengths);
     check("presliding_deflection", leaf->presliding_deflection, kLongestPresliding, "m", kLengths);
+  } else if (const auto* bushing = std::get_if<Bushing::Parameters>(&force.parameters)) {
+    check("angle", std::abs(bushing->angle), kLargestTurn, "rad", "angles are in rad, not in degrees");
   } else if (const auto* stop = std::get_if<HydraulicStop::Parameters>(&force.parameters)) {
     check("contact_length", stop->contact_length, kLongest, "m", kLengths);
   } else if (const auto* tyre = std::get_if<TyreDescription>(&force.parameters)) {
@@ -96,6 +98,9 @@ void remark_on_force(const ForceDescription& force, std::vector<std::string>& re
     const double area = air->effective_area.value(air->design_height);
     check("design_height", air->design_height, kLargestWheel, "m", kLengths);
     check("effective_area", area, kLargestArea, "m²", "areas are in m², not in cm² or mm²");
+    const double widest =
+        std::max({air->auxiliary_area, air->line_area, air->levelling ? air->levelling->area : 0.0});
+    check("orifice", widest, area, "m², which is more than the effective_area", kLengths);
     check("volume", air->volume, kLargestVolume, "m³", "volumes are in m³, not in litres");
     const double gauge = air->pressure - air->ambient_pressure;
     if (!force.static_length && gauge > 0.0 && gauge < kLeastPressure) {

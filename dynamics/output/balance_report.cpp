@@ -85,7 +85,7 @@ std::string format_equilibrium(const BalanceReport& report) {
     text += fmt::format("\n{}", forces.str());
   }
   if (report.sections == nullptr) return text;
-  text += format_sections(*report.sections);
+  text += format_sections(*report.sections, true);
   return text + format_warnings(report.warnings);
 }
 

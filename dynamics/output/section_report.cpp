@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <vector>
 
 #include "tools/support/terminal/text_table.h"
 
@@ -18,20 +19,24 @@ std::string format_value(double value) {
 
 }  // namespace
 
-std::string format_sections(const SectionStatistics& statistics) {
-  support::TextTable table({"body", "from loads N·m", "at x m", "y m", "time s", "from modes N·m",
-                            "largest difference N·m", "modes miss %"});
+std::string format_sections(const SectionStatistics& statistics, bool at_rest) {
+  std::vector<std::string> heads{"body", "from loads N·m", "at x m", "y m"};
+  if (!at_rest) heads.emplace_back("time s");
+  heads.insert(heads.end(), {"from modes N·m", "largest difference N·m", "modes miss %"});
+  support::TextTable table(heads);
   for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
     const BodySections& body = statistics.sections().bodies()[b];
     const SectionPeaks& peaks = statistics.peaks()[b];
     const bool has_both = body.has_loads() && body.has_modes();
     const SectionPeak& peak = (body.has_loads() ? peaks.from_loads : peaks.from_modes)[SectionPeaks::kMoment];
-    table.add_row({body.name(), body.has_loads() ? format_value(peak.value) : "",
-                   format_value(body.positions()(peak.station, 0)),
-                   format_value(body.positions()(peak.station, 1)), fmt::format("{:.3f}", peak.time),
-                   body.has_modes() ? format_value(peaks.from_modes[SectionPeaks::kMoment].value) : "",
-                   has_both ? format_value(peaks.difference[SectionPeaks::kMoment].value) : "",
-                   body.has_missing() ? fmt::format("{:.3g}", 100.0 * peaks.missing_moment_share()) : ""});
+    std::vector<std::string> row{body.name(), body.has_loads() ? format_value(peak.value) : "",
+                                 format_value(body.positions()(peak.station, 0)),
+                                 format_value(body.positions()(peak.station, 1))};
+    if (!at_rest) row.push_back(fmt::format("{:.3f}", peak.time));
+    row.push_back(body.has_modes() ? format_value(peaks.from_modes[SectionPeaks::kMoment].value) : "");
+    row.push_back(has_both ? format_value(peaks.difference[SectionPeaks::kMoment].value) : "");
+    row.push_back(body.has_missing() ? fmt::format("{:.3g}", 100.0 * peaks.missing_moment_share()) : "");
+    table.add_row(row);
   }
   if (statistics.peaks().empty()) return "";
   return "\nLargest bending moments along the beams\n" + table.str();

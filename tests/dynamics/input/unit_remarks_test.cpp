@@ -66,6 +66,18 @@ TEST_CASE("Dimensions of suspension elements in other units are remarked on") {
              "y = { spring = { polynomial = [0.0, 0.5] } }") ==
         about("spring' has 1 N/m, which the weight of the lighter body on it, 36.1 N, compresses by 36.1 m",
               "stiffnesses are in N/m, not in N/mm"));
+  const auto orifice = [&](const std::string& diameter) {
+    return with(
+        "type = \"air-spring\"\ngauge_pressure = 4e5\ndesign_height = 0.25\neffective_area = 0.05\n"
+        "volume = 0.0125\nauxiliary = { volume = 0.01, orifice = { diameter = " +
+        diameter + ", discharge_coefficient = 1.0 } }");
+  };
+  CHECK(orifice("0.01").empty());
+  CHECK(orifice("10.0") ==
+        about("orifice' is 78.54 m², which is more than the effective_area", "lengths are in m, not in mm"));
+  const std::string of_bushing = "type = \"bushing\"\nx = { spring = { polynomial = [0.0, 1e4] } }\nangle = ";
+  CHECK(with(of_bushing + "0.7854").empty());
+  CHECK(with(of_bushing + "45.0") == about("angle' is 45 rad", "angles are in rad, not in degrees"));
   CHECK(with("type = \"air-spring\"\ngauge_pressure = 4.0\ndesign_height = 0.25\neffective_area = 0.05\n"
              "volume = 0.0125") == about("gauge_pressure' is 4 Pa", "pressures are in Pa, not in bar"));
   CHECK(with("type = \"spring-damper\"\nfree_length = 0.3\ndamper = { coefficient = 0.05 }") ==
