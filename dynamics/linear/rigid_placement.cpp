@@ -49,7 +49,7 @@ class Groups {
         if (body_of(marker) == kGround) continue;
         Group& group = groups[find_of(body_of(marker))];
         group.is_tied |= is_tied;
-        group.has_tyres |= force->kind() == "tyre";
+        group.has_tyres |= force->describe().on_road;
       }
     }
     std::vector<Group> listed;

@@ -46,9 +46,7 @@ class TransientRun {
     piece().update_branches(stepper_->equations().terms());
     if (options_.adaptivity && options_.adaptivity->continues) pass_jump(time);
     stepper_->resume(time, smooth_end_);
-    // Modes that join at the very start are there from the first output on.
-    const bool is_settled = !(adaptive_ && time < options_.end_time);
-    if (is_settled) write_outputs(time);
+    if (!may_join(time)) write_outputs(time);
     if (time < options_.end_time) integrate();
     return calc_statistics();
   }
@@ -158,9 +156,10 @@ class TransientRun {
       if (reached_.next_output == first_output && work_ % kStepsPerObservation == 0) observe_between();
       if (options_.on_step && !options_.on_step(time)) return;
       if (at_break) {  // a function that jumps has its later value
+        last_break_ = time;
         begin_piece(smooth_end_);
         if (!at_end) stepper_->resume(time, smooth_end_);
-        write_outputs(time);
+        if (!may_join(time)) write_outputs(time);
       }
       if (at_end) break;
       if (result == Integrator::StepResult::kSwitched) {
@@ -216,17 +215,20 @@ class TransientRun {
     ++reached_.statistics.switches;
   }
 
+  // Whether the next step, which starts there, may show that modes join there: an output waits for them.
+  bool may_join(double time) const { return adaptive_ && time < options_.end_time; }
+
   double output_tolerance() const { return 1e-9 * options_.output_step; }
 
-  // Writes every output time up to `time`, which the stepper has reached; one that is meant to be there
-  // exactly there.
+  // Writes every output time up to `time`, which the stepper has reached; one that is meant to be there, or
+  // at the last break, exactly there.
   void write_outputs(double time) {
     const double tolerance = output_tolerance();
     while (true) {
       const double next =
           reached_.start.time + static_cast<double>(reached_.next_output) * options_.output_step;
       if (next > options_.end_time + tolerance || next > time + tolerance) return;
-      write_output(next < time - tolerance ? next : time);
+      write_output(next < time - tolerance ? std::max(next, last_break_) : time);
       ++reached_.next_output;
     }
   }
@@ -273,6 +275,7 @@ class TransientRun {
   const AdaptiveStepper* adaptive_ = nullptr;  // the stepper, where modes change
   double next_break_ = 0.0;                    // of a function of time
   double smooth_end_ = 0.0;                    // the next break, or the end
+  double last_break_ = -std::numeric_limits<double>::infinity();
   long work_ = 0;                              // steps and outputs since the last checkpoint
 };
 
