@@ -276,7 +276,7 @@ class TransientRun {
   double next_break_ = 0.0;                    // of a function of time
   double smooth_end_ = 0.0;                    // the next break, or the end
   double last_break_ = -std::numeric_limits<double>::infinity();
-  long work_ = 0;                              // steps and outputs since the last checkpoint
+  long work_ = 0;  // steps and outputs since the last checkpoint
 };
 
 Eigen::Vector2d calc_acceleration_from(const SystemTerms& terms, const Eigen::VectorXd& v_dot,
