@@ -16,6 +16,7 @@ struct RoadWave {
 struct RoadPlace {
   double distance = 0.0;    ///< along the road, where ξ of `RoadWave` is 0 [m]
   bool is_pressed = false;  ///< the road exerts a force on it
+  bool can_lift = true;     ///< whether it can leave the ground
 };
 
 /// Complex amplitudes of the force and torque on a marker for z = 1 m, in world axes.

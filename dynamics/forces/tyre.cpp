@@ -68,7 +68,9 @@ std::string Tyre::describe_change(std::span<const int> old_branches,
 }
 
 std::optional<RoadPlace> Tyre::find_road_place(const Instant& instant, std::span<const int> branches) const {
-  return RoadPlace{.distance = road_.distance(center(instant).r.x()), .is_pressed = branches[0] == kPressed};
+  return RoadPlace{.distance = road_.distance(center(instant).r.x()),
+                   .is_pressed = branches[0] == kPressed,
+                   .can_lift = parameters_.one_sided};
 }
 
 double Tyre::calc_passing_time(const Instant& instant, double length) const {

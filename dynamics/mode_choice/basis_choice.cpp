@@ -214,7 +214,7 @@ void remark_lifting(const LinearVehicle& vehicle, const WatchedQuantities& watch
                     const NeglectMeasure& measure, BasisChoice& choice) {
   std::string wheels;
   for (const RoadInput& input : vehicle.inputs()) {
-    if (!input.is_pressed) continue;
+    if (!input.is_pressed || !input.can_lift) continue;
     const auto& names = watched.outputs.names;
     const auto found = std::find(names.begin(), names.end(), fmt::format("forces/{}/force", input.name));
     if (found == names.end()) continue;
@@ -223,7 +223,7 @@ void remark_lifting(const LinearVehicle& vehicle, const WatchedQuantities& watch
     const double lowest = measure.find_lowest(row);
     if (!(standing > 0.0) || standing + lowest >= 0.0) continue;
     if (!wheels.empty()) wheels += ", ";
-    wheels += fmt::format("'{}' by {:.2g} times its static force", input.name, -lowest / standing);
+    wheels += fmt::format("'{}' by {:.4g} % of it", input.name, -100.0 * lowest / standing);
   }
   if (wheels.empty()) return;
   choice.remarks.push_back(

@@ -26,7 +26,8 @@ LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
     inputs_.push_back({.name = force.name,
                        .force = static_cast<int>(f),
                        .distance = place->distance,
-                       .is_pressed = place->is_pressed});
+                       .is_pressed = place->is_pressed,
+                       .can_lift = place->can_lift});
   }
 }
 

@@ -21,6 +21,7 @@ struct RoadInput {
   int force = 0;            ///< its index in Model::forces
   double distance = 0.0;    ///< along the road [m]
   bool is_pressed = false;  ///< whether it is on the ground; otherwise the road does not act here
+  bool can_lift = true;     ///< whether it can leave the ground
 };
 
 /// The effect of a road wave of amplitude 1 m at each of the k inputs alone.

@@ -186,8 +186,14 @@ class Truck(VerificationCase):
         # Its wheels leave the ground, which is reported.
         for report in (short, long):
             lifting, beyond_linear = report["remarks"]
-            self.assertRegex(lifting, "'front_tyre' by .* times its static force.*leave the ground")
+            self.assertRegex(lifting, "static value: 'front_tyre' by 3[0-9.]* % of it.*leave the ground")
             self.assertIn("forces of 'front_suspension', 'rear_suspension' are beyond that", beyond_linear)
+        # A tyre that also pulls never does.
+        tyre = {"vehicle__forces__front_tyre__spring": "{ polynomial = [0.0, 1e6] }"}
+        for one_sided, lifts in (("true", True), ("false", False)):
+            pulls = self.select("bump", *overrides(vehicle__forces__front_tyre__one_sided=one_sided, **tyre))
+            found = re.search("'front_tyre'.*leave the ground", " ".join(pulls["remarks"]))
+            self.assertEqual(found is not None, lifts, pulls["remarks"])
         slow = self.select("terrain", *overrides(speed=1.0))
         self.assertNotIn("leave the ground", " ".join(slow["remarks"]))
 
