@@ -70,8 +70,9 @@ struct TimedForce {
 
 class TimedForces {
  public:
-  explicit TimedForces(const LinearVehicle& vehicle)
+  TimedForces(const LinearVehicle& vehicle, const KnownForcing& forcing)
       : vehicle_(vehicle), wrenches_(vehicle.model().markers.size()) {
+    if (forcing.is_road_alone) return;
     const Model& model = vehicle.model();
     for (std::size_t f = 0; f < model.forces.size(); ++f) {
       if (!changes_with_time(*model.forces[f])) continue;
@@ -153,7 +154,7 @@ ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownF
     const auto height = [&](double t) { return forcing.road->height(forcing.speed * t); };
     spectrum.road = calc_lines(sample(height, forcing.duration, spectrum.period, n), m);
   }
-  TimedForces timed(vehicle);
+  TimedForces timed(vehicle, forcing);
   std::vector<Eigen::VectorXd> gains;
   std::vector<Eigen::RowVectorXcd> applied;
   for (const TimedForce& one : timed.list()) {
@@ -192,7 +193,7 @@ double calc_settling_time(const LinearVehicle& vehicle, double longest) {
 }
 
 double calc_forcing_duration(const LinearVehicle& vehicle, const KnownForcing& forcing, double settling) {
-  if (!TimedForces(vehicle).list().empty()) return forcing.duration;
+  if (!TimedForces(vehicle, forcing).list().empty()) return forcing.duration;
   const Road* road = forcing.road;
   const double shortest = kShortest * forcing.duration;
   if (road == nullptr || !(forcing.speed > 0.0) || vehicle.inputs().empty()) return shortest;

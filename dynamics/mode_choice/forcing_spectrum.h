@@ -13,6 +13,7 @@ struct KnownForcing {
   const Road* road = nullptr;  ///< s = 0 under the foremost wheel at the start
   double speed = 0.0;          ///< ≥ 0 [m/s]; at 0 the road has no effect
   double duration = 0.0;       ///< of the run, > 0 [s]
+  bool is_road_alone = false;  ///< forces that vary with time do not act, as in a response
 };
 
 /// The forcing as a Fourier series over a period, z(t) = Σ z_k e^{iω_k t} with ω_k = 2πk/period: the road

@@ -111,8 +111,10 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
     if (model.markers[static_cast<std::size_t>(marker)].body != kGround) places.points.push_back(marker);
   }
   if (vehicle.judged.moments) places.moments = make_moment_outputs(linear, vehicle);
-  const KnownForcing forcing{
-      .road = road.road.get(), .speed = std::max(run.speed, 0.0), .duration = road.duration};
+  const KnownForcing forcing{.road = road.road.get(),
+                             .speed = std::max(run.speed, 0.0),
+                             .duration = road.duration,
+                             .is_road_alone = road.is_of_response};
   BasisChoice choice = choose_basis(linear, candidates, places, vehicle.judged, forcing, tolerance);
   for (const RoadInput& input : linear.inputs()) {
     if (!input.is_pressed)

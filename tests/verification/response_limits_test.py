@@ -88,8 +88,8 @@ class Modes(ResponseCase):
     FLEXIBLE = ("chassis", "front_long_arm", "rear_long_arm")
     NARROW = overrides(response__number=2, response__to=30, response__road__class="C")
 
-    def respond(self, *arguments):
-        return self.response(TRUCK, *arguments, superelements=os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]).report
+    def respond(self, *arguments, run=TRUCK):
+        return self.response(run, *arguments, superelements=os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]).report
 
     def list_missing(self, *arguments):
         report = self.respond(*arguments)
@@ -128,6 +128,17 @@ class Modes(ResponseCase):
         still = "neither road nor forces in time move the vehicle"
         self.assertEqual([any(still in one for one in remarks) for remarks in (other, first["remarks"])],
                          [True, False])
+
+    def test_forces_in_time_have_no_part_in_the_choice_for_a_response(self):
+        vehicle = (TRUCK.parent / "vehicle.toml").read_text(encoding="utf-8")
+        force = '\n[[forces]]\nname = "engine"\ntype = "applied"\npoint = "chassis.seat"\nforce = [0.0, {}]\n'
+        run = TRUCK.read_text(encoding="utf-8").replace('vehicle = "vehicle.toml"', "")
+        choices = []
+        for value in ("0.0", "{ harmonic = { amplitude = 1e5, frequency = 3.0 } }"):
+            path = self.write_model(vehicle + force.format(value), run)
+            report = self.respond(*self.NARROW, *overrides(modes__chassis='"auto"'), run=path)
+            choices.append(report["mode_choice"])
+        self.assertEqual(*choices)
 
 
 if __name__ == "__main__":
