@@ -29,7 +29,8 @@ std::string describe_modes(const Model& model) {
 void add_certified_row(const CertifiedShare& share, const CertifiedError& body, support::TextTable& run) {
   if (share.point.empty()) return;
   std::string text = fmt::format(
-      "{}up to {:.4g} Hz {} {:.3g} % of the r.m.s. acceleration of {} along {}; {:.3g} % of it above",
+      "{}under the loads of this run, up to {:.4g} Hz {} {:.3g} % of the r.m.s. acceleration of {} along {}; "
+      "{:.3g} % of it above",
       body.is_whole() ? "" : "with all its vectors, ", body.highest_hz(),
       body.is_proved() ? "at most" : "about (not proved)", 100.0 * share.missing, share.point,
       share.direction == 0 ? "x" : "y", 100.0 * share.above);

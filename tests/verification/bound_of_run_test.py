@@ -151,6 +151,13 @@ class Bound(VerificationCase):
             found = self.program("run", run, *words, superelements=self.folder)["certified"]["chassis"]
             self.assertEqual(found["proved"], whole)
 
+    def test_the_printed_bound_says_that_it_holds_under_the_loads_of_this_run(self):
+        self.build(good=("= 60.0", "= 60.0"))
+        run = self.write_model(PUSHED.format(superelement="good", point="rear_spring"), PUSHED_RUN)
+        command = [os.environ["SPRUNG_DYNAMICS"], "run", run, "--superelements", self.folder, "--quiet"]
+        printed = run_program(command, cwd=self.folder, check=True).stdout
+        self.assertRegex(printed, r"basis of chassis misses +under the loads of this run, up to 60 Hz at most \d")
+
     def test_a_bushing_without_a_law_of_rotation_turns_only_its_first_point(self):
         """Its axes turn with the point a, on which the forces at b have a moment; b bears forces alone."""
         self.build(good=("= 60.0", "= 60.0"))
