@@ -8,9 +8,10 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kHardly = 1e-2;    // of the acceleration of the point that moves most
-constexpr double kRest = 1e-6;      // of the smallest acceleration that counts: rounding
-constexpr double kSameTime = 1e-9;  // of times that differ by rounding
+constexpr double kHardly = 1e-2;     // of the acceleration of the point that moves most
+constexpr double kSlight = 0.1;      // of the smallest reference of a mode: a thousandth of gravity
+constexpr double kMostGrowth = 1.0;  // ln of the factor by which small motion may grow over the run
+constexpr double kSameTime = 1e-9;   // of times that differ by rounding
 
 }  // namespace
 
@@ -20,6 +21,7 @@ MissingAccelerationRecord::MissingAccelerationRecord(const ModeIndicator& indica
       markers_(std::move(points)),
       from_(from),
       to_(to),
+      growth_(motion_.growth() * to > kMostGrowth ? motion_.growth() : 0.0),
       sums_{.points = std::vector<Point>(markers_.size())} {}
 
 double MissingAccelerationRecord::find_angle(std::size_t point, const ModeIndicator& indicator,
@@ -33,7 +35,7 @@ double MissingAccelerationRecord::find_angle(std::size_t point, const ModeIndica
 void MissingAccelerationRecord::add(const ModeIndicator& indicator, const Eigen::VectorXd& forces,
                                     const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   const double now = indicator.time(), step = sums_.has_begun ? now - sums_.time : 0.0;
-  motion_.update(step, forces, v);
+  if (growth_ == 0.0) motion_.update(step, forces, v);
   const double slack = kSameTime * std::abs(now);
   const bool is_judged = now >= from_ - slack && now <= to_ + slack;
   const double judged = is_judged ? std::min(step, std::max(0.0, now - from_)) : 0.0;
@@ -65,13 +67,14 @@ void MissingAccelerationRecord::add(const ModeIndicator& indicator, const Eigen:
 MissingAcceleration MissingAccelerationRecord::find_worst(const ModeIndicator& indicator) const {
   MissingAcceleration worst;
   if (!sums_.has_left_out) return worst;
-  // Of a point that hardly moves beside the others, or of rest, there is no share.
+  if (growth_ > 0.0) return {.growth = growth_};
+  // A point that hardly moves beside the others, or by itself, has these accelerations as its reference.
   double largest_sum = 0.0, largest_peak = 0.0;
   for (const Point& point : sums_.points) {
     largest_sum = std::max(largest_sum, point.present_sum);
     largest_peak = std::max(largest_peak, point.peak);
   }
-  const double least = kRest * indicator.sizes().least_acceleration();
+  const double least = kSlight * indicator.sizes().least_acceleration();
   const double least_sum = std::max(kHardly * kHardly * largest_sum, sums_.length * least * least);
   const double least_peak = std::max(kHardly * largest_peak, least);
   for (std::size_t i = 0; i < sums_.points.size(); ++i) {

@@ -10,10 +10,11 @@ namespace sprung::dynamics {
 
 /// What all modes left out together would add to the acceleration of a point, over a run.
 struct MissingAcceleration {
-  int point = -1;            ///< place among the points asked for; −1: no mode was left out
-  int direction = 0;         ///< 0: most of it is along x, 1: along y
-  double rms_share = 0.0;    ///< r.m.s. of what is missing over that of the point's acceleration
+  int point = -1;          ///< place among the points asked for; −1: no mode was left out, or not estimated
+  int direction = 0;       ///< 0: most of it is along x, 1: along y
+  double rms_share = 0.0;  ///< r.m.s. of what is missing over that of the point's acceleration
   double peak_change = 0.0;  ///< change of the point's largest acceleration, as a share of it
+  double growth = 0.0;       ///< > 0: not estimated, because small motion grows at this rate [1/s]
   double worst() const { return rms_share > peak_change ? rms_share : peak_change; }
 };
 
@@ -85,6 +86,7 @@ class MissingAccelerationRecord {
   MissingMotion motion_;
   std::vector<int> markers_;
   double from_, to_;
+  double growth_;  // as that of MissingAcceleration
   Sums sums_;
 };
 

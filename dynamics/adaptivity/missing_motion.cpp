@@ -104,6 +104,7 @@ bool MissingMotion::take(const SmallMotion& small, const Eigen::MatrixXd& roundi
   if (!pairs) return false;
   vectors_ = support::factorise_lu(pairs->real_vectors);
   if (size > 0 && vectors_.reciprocal_condition < kWorstBasis) return false;
+  growth_ = has_growth(pairs->values) ? pairs->values.real().maxCoeff() : 0.0;
   for (Eigen::Index i = 0; i < size; ++i) {
     const Complex value = pairs->values[i];
     const bool is_pair = value.imag() != 0.0;

@@ -39,6 +39,8 @@ class MissingMotion {
   void add_rates(const Eigen::VectorXd& change);
   /// Added acceleration of each point asked for, along x and y in turn, in the axes of the start [m/s²].
   const Eigen::VectorXd& accelerations() const { return accelerations_; }
+  /// Of the fastest growing part of the small motion, 0 where none grows [1/s].
+  double growth() const { return growth_; }
 
   /// The term of one eigenvector.
   struct Term {
@@ -98,7 +100,7 @@ class MissingMotion {
   support::LuFactors vectors_{.lu = {}};        // X
   Eigen::MatrixXd static_states_;               // of a force on each mode
   Eigen::MatrixXd rate_states_;                 // of the rates of the independent coordinates
-  double weighted_step_ = 0.0;
+  double weighted_step_ = 0.0, growth_ = 0.0;
   Eigen::VectorXd driving_, places_and_forces_, accelerations_;
 };
 

@@ -154,6 +154,8 @@ std::string format_summary(const RunSummary& summary) {
            fmt::format("{:.3g} % of the r.m.s. acceleration of {}, largest changed by {:.3g} %{}",
                        100.0 * missing.rms_share, name_missing_point(*summary.adaptivity, missing),
                        100.0 * missing.peak_change, summary.adaptivity->continues ? kHistoryUnknown : "")});
+    } else if (missing.growth > 0.0) {
+      run.add_row({"modes left out, together", describe_growth(missing)});
     }
   }
   for (const CertifiedError& body : summary.statistics.certified())
@@ -188,6 +190,8 @@ Json make_summary_json(const RunSummary& summary) {
                                     {"axis", missing.direction == 0 ? "x" : "y"},
                                     {"of_rms_acceleration", missing.rms_share},
                                     {"change_of_largest_acceleration", missing.peak_change}};
+    } else if (missing.growth > 0.0) {
+      modes["left_out_together"] = {{"unstable_growth", missing.growth}};
     }
   }
   Json points = Json::object();

@@ -41,6 +41,13 @@ std::string describe_missing(const MissingAcceleration& missing, const Adaptivit
       100.0 * missing.peak_change, adaptivity.continues ? kHistoryUnknown : "");
 }
 
+std::vector<std::string> list_points(const AdaptivityOptions& adaptivity) {
+  std::vector<std::string> names;
+  for (const int marker : adaptivity.points)
+    names.push_back(adaptivity.full->markers[static_cast<std::size_t>(marker)].name);
+  return names;
+}
+
 }  // namespace
 
 void add_missing_modes_warning(const Model& model, const RunStatistics& statistics,
@@ -48,6 +55,14 @@ void add_missing_modes_warning(const Model& model, const RunStatistics& statisti
                                std::vector<RunWarning>& warnings) {
   const WorstNeglect& worst = transient.worst_neglect;
   const MissingAcceleration& missing = transient.missing_acceleration;
+  if (missing.growth > 0.0) {
+    warnings.push_back(
+        {.concerns = kSummary,
+         .of = list_points(adaptivity),
+         .text = fmt::format("what the modes left out would add to accelerations is {}: compare "
+                             "the run with one with more modes",
+                             describe_growth(missing))});
+  }
   // Modes that can join do so before their deflection is missing.
   const bool is_deflection = !adaptivity.changes && worst.deflection.share > kTooMuchLeftOut;
   const bool is_acceleration = missing.point >= 0 && missing.worst() > kTooMuchLeftOut;
@@ -77,6 +92,13 @@ void add_missing_modes_warning(const Model& model, const RunStatistics& statisti
 std::string name_missing_point(const AdaptivityOptions& adaptivity, const MissingAcceleration& missing) {
   const int marker = adaptivity.points[static_cast<std::size_t>(missing.point)];
   return adaptivity.full->markers[static_cast<std::size_t>(marker)].name;
+}
+
+std::string describe_growth(const MissingAcceleration& missing) {
+  return fmt::format(
+      "not estimated, because small motion about the start, with all modes and without stiffening, grows by "
+      "itself ({:.3g} 1/s)",
+      missing.growth);
 }
 
 }  // namespace sprung::dynamics

@@ -16,6 +16,8 @@ void add_missing_modes_warning(const Model& model, const RunStatistics& statisti
 
 /// The point at which modes left out are missing the most.
 std::string name_missing_point(const AdaptivityOptions& adaptivity, const MissingAcceleration& missing);
+/// Why what is missing is not estimated. @param missing  with growth
+std::string describe_growth(const MissingAcceleration& missing);
 /// Follows what modes left out together would add to a run that continues another.
 inline constexpr const char* kHistoryUnknown = " (what they did before its start is not known)";
 

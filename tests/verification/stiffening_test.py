@@ -48,6 +48,22 @@ class RotatingBeam(VerificationCase):
         )
         self.assert_close(omega[0] / UNIT, 5.0490, relative=1e-4)
 
+    def test_what_modes_left_out_change_is_not_estimated_where_small_motion_grows(self):
+        # The estimate is without stiffening: beyond 17.6 rad/s it would grow without bounds, though the beam does not.
+        for speed in (12.0, 18.0):
+            words = ("--set", f"vehicle.motions.speed.function.polynomial=[0.3, {speed}]", "--set", "modes.beam=2",
+                     "--set", "stiffening.beam=true", "--set", "output_step=1e-2")  # fmt: skip
+            results = self.run_to_results(MODELS / "rotating_beam_run.toml", *words)
+            found = results.summary["modes"]["left_out_together"]
+            told = [one["text"] for one in results.summary["warnings"] if "is not estimated, because" in one["text"]]
+            growth_squared = speed**2 - (CLAMPED_FREE[0] * UNIT) ** 2
+            if growth_squared < 0.0:
+                self.assertIn("of_rms_acceleration", found)
+                self.assertEqual(told, [])
+                continue
+            self.assert_close(found["unstable_growth"], math.sqrt(growth_squared), relative=1e-2)
+            self.assertIn(f"grows by itself ({found['unstable_growth']:.3g} 1/s)", told[0])
+
 
 COLUMN = """
 name = "column"
