@@ -8,8 +8,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kHardly = 1e-2;     // of the acceleration of the point that moves most
-constexpr double kSlight = 0.1;      // of the smallest reference of a mode: a thousandth of gravity
+constexpr double kHardly = 1e-2;  // of the acceleration of the point that moves most
+constexpr double kRest = 3e-4;    // of the smallest acceleration that counts: rounding, and errors of steps
 constexpr double kMostGrowth = 1.0;  // ln of the factor by which small motion may grow over the run
 constexpr double kSameTime = 1e-9;   // of times that differ by rounding
 
@@ -68,13 +68,13 @@ MissingAcceleration MissingAccelerationRecord::find_worst(const ModeIndicator& i
   MissingAcceleration worst;
   if (!sums_.has_left_out) return worst;
   if (growth_ > 0.0) return {.growth = growth_};
-  // A point that hardly moves beside the others, or by itself, has these accelerations as its reference.
+  // A point that hardly moves beside the others, or is at rest, has these accelerations as its reference.
   double largest_sum = 0.0, largest_peak = 0.0;
   for (const Point& point : sums_.points) {
     largest_sum = std::max(largest_sum, point.present_sum);
     largest_peak = std::max(largest_peak, point.peak);
   }
-  const double least = kSlight * indicator.sizes().least_acceleration();
+  const double least = kRest * indicator.sizes().least_acceleration();
   const double least_sum = std::max(kHardly * kHardly * largest_sum, sums_.length * least * least);
   const double least_peak = std::max(kHardly * largest_peak, least);
   for (std::size_t i = 0; i < sums_.points.size(); ++i) {

@@ -35,10 +35,15 @@ std::string_view role_name(ChannelRole role) {
 }
 
 std::vector<int> ForceElement::turned_markers() const {
+  return find_channel(ChannelRole::kTorque) ? markers() : std::vector<int>();
+}
+
+std::optional<std::size_t> ForceElement::find_channel(ChannelRole role) const {
   const std::span<const Channel> all = channels();
-  const bool has_torque = std::any_of(
-      all.begin(), all.end(), [](const Channel& channel) { return channel.role == ChannelRole::kTorque; });
-  return has_torque ? markers() : std::vector<int>();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [role](const Channel& channel) { return channel.role == role; });
+  if (found == all.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - all.begin());
 }
 
 }  // namespace sprung::dynamics

@@ -190,6 +190,8 @@ class ForceElement {
   virtual std::vector<const TimeFunction*> time_functions() const { return {}; }
 
   virtual std::span<const Channel> channels() const = 0;
+  /// Place of its first channel of a role among channels(); none if it has no such channel.
+  std::optional<std::size_t> find_channel(ChannelRole role) const;
   /// @param branches  of the element, as for add_wrenches
   virtual void calc_channels(const Instant& instant, std::span<const int> branches,
                              std::span<double> values) const = 0;

@@ -21,14 +21,14 @@ struct LinearisedSystem {
 };
 
 /// Linearises the vehicle about rest, or about steady motion in the coordinates relative to it
-/// (linear, eqs. 1, 2, 5, 6). Stiffness and damping come from central differences, so that a kink counts with
-/// the mean of its two slopes; those of the stiffness are extrapolated to fourth order. The stiffness of the
-/// bodies' modes is added without a difference, so that stiff modes cause no rounding error.
-/// @param q            assembled positions; the branches are chosen at each point of the differences
+/// (linear, eqs. 1, 2, 5, 6). Stiffness and damping come from central differences, in which a kink beside
+/// rest does not count, and one at rest counts with the mean of its two slopes; those of the stiffness are
+/// extrapolated to fourth order. The stiffness of the bodies' modes is added without a difference, so that
+/// stiff modes cause no rounding error.
+/// @param q            assembled positions
 /// @param[out] spread  f×f, ≥ 0: how far the slopes of the stiffness lie apart (linear, eq. 12); may be null
 /// @throws support::NumericalError if the constraints cannot be satisfied around q, or if a force has no
-/// value
-///         there (the message names the force element)
+///         value there (the message names the force element)
 /// Checked by tests/dynamics/linear/vehicle_modes_test.cpp, tests/verification/steady_test.py
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
                            const SteadyMotion& motion = {}, Eigen::MatrixXd* spread = nullptr);

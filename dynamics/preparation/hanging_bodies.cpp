@@ -16,10 +16,8 @@ int body_of(const Model& model, int marker) {
 
 // The force with which a spring pushes its points apart.
 double calc_push(const ForceElement& element, std::span<const double> channels) {
-  const auto channel = std::find_if(element.channels().begin(), element.channels().end(),
-                                    [](const Channel& one) { return one.role == ChannelRole::kForce; });
-  if (channel == element.channels().end()) return 0.0;
-  return channels[static_cast<std::size_t>(channel - element.channels().begin())];
+  const std::optional<std::size_t> channel = element.find_channel(ChannelRole::kForce);
+  return channel ? channels[*channel] : 0.0;
 }
 
 // The body and those that joints connect with it, not by way of `above`; none if they reach the ground.

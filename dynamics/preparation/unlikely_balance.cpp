@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "dynamics/output/resting_forces.h"
@@ -44,10 +45,10 @@ void check_tyre(const ForceDescription& force, double height, std::vector<std::s
 // from elsewhere.
 void check_stops(const ForceDescription& force, const ForceElement& element, std::span<const double> channels,
                  std::vector<std::string>& remarks) {
-  const auto channel = std::find_if(element.channels().begin(), element.channels().end(),
-                                    [](const Channel& one) { return one.role == ChannelRole::kDeflection; });
-  if (channel == element.channels().end()) return;
-  const double deflection = channels[static_cast<std::size_t>(channel - element.channels().begin())];
+  const std::optional<std::size_t> channel = element.find_channel(ChannelRole::kDeflection);
+  if (!channel) return;
+  const double deflection = channels[*channel];
+  const std::string_view unit = element.channels()[*channel].unit;
   for (const Parameter& parameter : element.describe().parameters) {
     const bool is_compression = parameter.name == "compression_stop";
     if (!is_compression && parameter.name != "rebound_stop") continue;
@@ -58,8 +59,8 @@ void check_stops(const ForceDescription& force, const ForceElement& element, std
         fmt::format(
             "'forces.{}' is on its {} stop, {:.3g} {} deep: its deflection is {:.4g} {}, and the stop begins "
             "at {:.4g} {}, both from the free length",
-            force.name, is_compression ? "compression" : "rebound", beyond, channel->unit, deflection,
-            channel->unit, std::get<double>(parameter.value), channel->unit)));
+            force.name, is_compression ? "compression" : "rebound", beyond, unit, deflection, unit,
+            std::get<double>(parameter.value), unit)));
   }
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <variant>
 
 #include "dynamics/functions/mean_slope.h"
 #include "dynamics/output/response_report.h"
@@ -63,10 +62,7 @@ double find_rms(const ResponseResult& result, const ForceElement& force, std::si
 // Wheels that the random road would lift, which a linear vehicle cannot know.
 void warn_of_lifting(const ForceElement& force, const std::vector<double>& at_rest,
                      const ResponseResult& result, Warnings& warnings) {
-  const auto channels = force.channels();
-  const auto found = std::find_if(channels.begin(), channels.end(),
-                                  [](const Channel& channel) { return channel.role == ChannelRole::kForce; });
-  const auto place = static_cast<std::size_t>(found - channels.begin());
+  const std::size_t place = force.find_channel(ChannelRole::kForce).value();
   const double rms = find_rms(result, force, place);
   if (kReach * rms <= at_rest[place]) return;
   warnings.add(force.name,
@@ -139,11 +135,6 @@ void warn_of_missing_modes(const PreparedRun& prepared, const LinearVehicle& veh
                   change.size(), 100.0 * kTooMuchLeftOut, fmt::join(full->incomplete, ", ")));
 }
 
-bool can_lift(const PreparedRun& prepared, std::size_t force) {
-  const auto* tyre = std::get_if<TyreDescription>(&prepared.vehicle.forces[force].parameters);
-  return tyre != nullptr && tyre->parameters.one_sided;
-}
-
 }  // namespace
 
 std::vector<RunWarning> list_response_warnings(const PreparedRun& prepared, const LinearVehicle& vehicle,
@@ -161,11 +152,12 @@ std::vector<RunWarning> list_response_warnings(const PreparedRun& prepared, cons
   }
   const Model& model = vehicle.model();
   const RestingForces at_equilibrium(model, prepared.equilibrium->q);
-  for (std::size_t f = 0; f < model.forces.size(); ++f) {
-    const std::vector<double> at_rest = at_equilibrium.calc_channels(f);
-    if (can_lift(prepared, f)) warn_of_lifting(*model.forces[f], at_rest, result, warnings);
-    warn_of_bends(*model.forces[f], at_rest, result, warnings);
+  for (const RoadInput& input : vehicle.inputs()) {
+    const auto f = static_cast<std::size_t>(input.force);
+    if (input.can_lift) warn_of_lifting(*model.forces[f], at_equilibrium.calc_channels(f), result, warnings);
   }
+  for (std::size_t f = 0; f < model.forces.size(); ++f)
+    warn_of_bends(*model.forces[f], at_equilibrium.calc_channels(f), result, warnings);
   return warnings.take();
 }
 

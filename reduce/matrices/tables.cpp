@@ -18,8 +18,7 @@ namespace {
 constexpr std::int64_t kLargestNode = std::numeric_limits<std::int32_t>::max();
 constexpr std::string_view kExpanded =
     ": CalculiX makes solids of beams and shells, and writes all their nodes under one number; such a frame "
-    "can "
-    "come in by tools/convert_mesh";
+    "can come in by tools/convert_mesh";
 
 bool is_blank(const TextLines& lines) {
   return lines.fields().empty();

@@ -4,13 +4,12 @@ SPRUNG_DYNAMICS); pictures are kept in the folder SPRUNG_SCREENSHOTS."""
 
 import itertools
 import json
-import os
 import unittest
 
 import h5py
 import matplotlib.path
 import numpy as np
-from report_page_case import ALL_CONTROLS, BLUE, NAME, PICTURES, ROOT, SIZES, SPANS, PageTestCase, is_colour
+from report_page_case import ALL_CONTROLS, BLUE, NAME, PICTURES, SIZES, SPANS, PageTestCase, is_colour
 
 EDGE = 7  # px: the radius of the sign of a mass, the largest one
 # The furthest places of a vehicle's nodes and wheels in a view, px: left, top, right, bottom.
@@ -33,11 +32,7 @@ class Fit(PageTestCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        designs = sorted((ROOT / "meshes/templates").glob("*_frame.toml"))
-        cls.call(os.environ["SPRUNG_REDUCE"], "build", *designs, "--output-dir", ".")
-        rigid = ("--set", "modes.tractor_frame=0", "--set", "modes.trailer_frame=0")
-        for name, changes in (("rigid_semi", rigid), ("semi", ())):
-            cls.drive("templates/semitrailer_run.toml", name, "--set", "duration=0.5", *changes)
+        cls.drive_semitrailer()
         cls.drive("templates/half_car_run.toml", "half_car", "--set", "duration=0.5")
         cls.report("semi.html", "rigid=rigid_semi.h5", "flexible=semi.h5")
         cls.report("mixed.html", "semi=semi.h5", "half car=half_car.h5")

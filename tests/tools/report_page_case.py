@@ -57,6 +57,15 @@ class PageTestCase(unittest.TestCase):
         cls.printed[name] = process.stdout + process.stderr
 
     @classmethod
+    def drive_semitrailer(cls):
+        """rigid_semi.h5 and semi.h5: the template's semitrailer for half a second."""
+        designs = sorted((ROOT / "meshes/templates").glob("*_frame.toml"))
+        cls.call(os.environ["SPRUNG_REDUCE"], "build", *designs, "--output-dir", ".")
+        rigid = ("--set", "modes.tractor_frame=0", "--set", "modes.trailer_frame=0")
+        for name, changes in (("rigid_semi", rigid), ("semi", ())):
+            cls.drive("templates/semitrailer_run.toml", name, "--set", "duration=0.5", *changes)
+
+    @classmethod
     def report(cls, page, *arguments):
         cls.call(TOOLS / "report", "-o", page, *arguments)
 

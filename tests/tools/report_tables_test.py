@@ -2,11 +2,10 @@
 something. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS); pictures are kept in the folder SPRUNG_SCREENSHOTS."""
 
 import json
-import os
 import shutil
 import unittest
 
-from report_page_case import PICTURES, ROOT, PageTestCase
+from report_page_case import PICTURES, PageTestCase
 
 ONLY_THE_SEAT = (
     'output.store={points=["body.seat"],bodies="none",joints="none",forces="none",recovery="none",wrenches="none"}'
@@ -17,11 +16,7 @@ class Tables(PageTestCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        designs = sorted((ROOT / "meshes/templates").glob("*_frame.toml"))
-        cls.call(os.environ["SPRUNG_REDUCE"], "build", *designs, "--output-dir", ".")
-        rigid = ("--set", "modes.tractor_frame=0", "--set", "modes.trailer_frame=0")
-        for name, changes in (("rigid_semi", rigid), ("semi", ())):
-            cls.drive("templates/semitrailer_run.toml", name, "--set", "duration=0.5", *changes)
+        cls.drive_semitrailer()
         cls.drive("templates/half_car_run.toml", "half_car", "--set", "duration=0.5")
         cls.drive("templates/half_car_run.toml", "seat", "--set", ONLY_THE_SEAT)
         spans = ("--set", "duration=0.5", "--set", "statistics.to=0.25")

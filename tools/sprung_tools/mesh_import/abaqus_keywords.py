@@ -1,8 +1,8 @@
 """The keywords and parameters of Abaqus and CalculiX decks that are read, and their abbreviations.
 
 Keywords, parameters and most of their values may be cut short, as long as what is left is the beginning of one alone.
-Source: Abaqus 2016, Analysis User's Guide, "Input syntax rules"; Keywords Reference
-Guide; CalculiX 2.20, User's Manual.
+Source: Abaqus 2016, Analysis User's Guide, "Input syntax rules"; Keywords Reference Guide; CalculiX 2.20,
+User's Manual.
 """
 
 from collections.abc import Iterable
